@@ -37,6 +37,9 @@ pub struct Grazing {
 /// |N . v|: triangles of a face seen at more than this do not hide its own border through their deflection.
 const GRAZE: f64 = 0.3;
 
+/// Change of N . v over half of a chord beyond which the face is also asked between the ends and the middle.
+const SWING: f64 = 0.1;
+
 /// |N . v|: a face or triangle seen at less is parallel to the line of sight; rounding would decide what it hides.
 const WALL: f64 = 1e-6;
 
@@ -48,7 +51,7 @@ const NEEDLE: f64 = 1e-9;
 const ASKED: usize = 8;
 
 pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], out: &mut Vec<Grazing>) {
-    let grazes = |side: &&Side| side.face.is_some() && (side.f.iter().any(|f| f.abs() < GRAZE) || dented(model, side));
+    let grazes = |side: &&Side| side.face.is_some() && (seen_edge_on(model, side) || dented(model, side));
     let found: Vec<(&Side, Vec<(f64, f64)>)> = sides.iter().filter(grazes).map(|side| (side, turns(side))).collect();
     let mut stops: Vec<f64> = found.iter().flat_map(|(_, turns)| turns.iter().map(|turn| turn.0)).collect();
     stops.extend([0.0, 1.0]);
@@ -70,6 +73,17 @@ pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], out: &mut
             out.push(Grazing { edge: e as u32, range, face: side.number, normals, front, beside, dented, rise });
         }
     }
+}
+
+/// Whether the face is seen nearly edge-on, or turns over, anywhere along its border. The ends alone do not tell: along
+/// a straight border of a twisted face, a single chord, it may turn over from end to end.
+fn seen_edge_on(model: &Model, side: &Side) -> bool {
+    let edge_on = |f: &[f64]| f.iter().any(|f| f.abs() < GRAZE) || f.iter().any(|g| g.signum() != f[0].signum());
+    let [a, b] = side.corners.map(|v| model.points[v as usize]);
+    let middle = dot(&side.normal, &model.sight(&along(&a, &sub(&b, &a), 0.5)));
+    let f = [side.f[0], middle, side.f[1]];
+    let swings = f.windows(2).any(|w| (w[0] - w[1]).abs() > SWING);
+    edge_on(&f) || (swings && edge_on(&asked(side).map(|(_, f)| f)))
 }
 
 fn dented(model: &Model, side: &Side) -> bool {
@@ -128,23 +142,29 @@ fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Be
     }
 }
 
+/// f along an edge, at parameters from 0 to 1; 0 where there is no normal.
+fn asked(side: &Side) -> [(f64, f64); ASKED + 1] {
+    std::array::from_fn(|k| {
+        let t = k as f64 / ASKED as f64;
+        match k {
+            0 => (t, side.f[0]),
+            ASKED => (t, side.f[1]),
+            _ => (t, side.face.as_ref().and_then(|face| face.f(uv_at(side, t))).unwrap_or(0.0)),
+        }
+    })
+}
+
+fn uv_at(side: &Side, t: f64) -> [f64; 2] {
+    [0, 1].map(|k| side.uv[0][k] + (side.uv[1][k] - side.uv[0][k]) * t)
+}
+
 /// The parameters (from 0) at which a face turns over along its edge, each with the sign of f from there on. The sign
 /// is 0 where the face is parallel to the line of sight.
 fn turns(side: &Side) -> Vec<(f64, f64)> {
     let Some(face) = &side.face else { return Vec::new() };
-    let uv = |t: f64| [0, 1].map(|k| side.uv[0][k] + (side.uv[1][k] - side.uv[0][k]) * t);
+    let uv = |t: f64| uv_at(side, t);
     let sign = |f: f64| if f.abs() <= TIE { 0.0 } else { f.signum() };
-    let asked: Vec<(f64, f64)> = (0..=ASKED)
-        .map(|k| {
-            let t = k as f64 / ASKED as f64;
-            match k {
-                0 => (t, side.f[0]),
-                ASKED => (t, side.f[1]),
-                _ => (t, face.f(uv(t)).unwrap_or(0.0)),
-            }
-        })
-        .filter(|&(_, f)| sign(f) != 0.0)
-        .collect();
+    let asked: Vec<(f64, f64)> = asked(side).into_iter().filter(|&(_, f)| sign(f) != 0.0).collect();
     let Some(&(_, first)) = asked.first() else { return vec![(0.0, 0.0)] };
     let mut out = vec![(0.0, sign(first))];
     for pair in asked.windows(2) {
