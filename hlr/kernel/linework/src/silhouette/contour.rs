@@ -11,7 +11,7 @@
 use rayon::prelude::*;
 
 use super::face::{Face, Place, mean};
-use super::grazing::{Grazing, grazed};
+use super::grazing::{Dents, Grazing, dents, grazed};
 use super::refine::{outward, rise};
 use super::side::{Side, side};
 use super::{Model, TIE};
@@ -87,16 +87,27 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
         record.surface.is_some()
     };
     let curved = |t: i32| model.faces[model.triangle_face[t as usize] as usize].curved;
-    let found: Vec<Contour> = (0..model.offsets.len() - 1)
+    let around = |e: usize| &model.incident[model.offsets[e] as usize..model.offsets[e + 1] as usize];
+    let sides_of = |e: usize| -> Vec<Side> {
+        let asked = around(e).iter().filter(|&&t| traced(t) && (curved(t) || model.smooth[e]));
+        asked.filter_map(|&t| side(model, values, e, t)).collect()
+    };
+    let bounds = |e: usize| {
+        let around = around(e);
+        around.iter().any(|&t| traced(t) && curved(t)) && !(around.len() == 2 && same_nodes(model, values, e, around))
+    };
+    let none = Dents::default();
+    let found: Vec<(Contour, Vec<(i32, i32)>)> = (0..model.offsets.len() - 1)
         .into_par_iter()
         .chunks(EDGES_AT_ONCE)
         .map(|edges| {
             let (mut crossings, mut folds, mut grazing) = (Vec::new(), Vec::new(), Vec::new());
+            let mut dented = Vec::new();
             if stopped() {
-                return Contour { crossings, folds, grazing };
+                return (Contour { crossings, folds, grazing }, dented);
             }
             for e in edges {
-                let around = &model.incident[model.offsets[e] as usize..model.offsets[e + 1] as usize];
+                let around = around(e);
                 if !around.iter().any(|&t| traced(t) && curved(t)) {
                     continue;
                 }
@@ -112,12 +123,9 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
                     }
                     continue;
                 }
-                let sides: Vec<Side> = around
-                    .iter()
-                    .filter(|&&t| traced(t) && (curved(t) || model.smooth[e]))
-                    .filter_map(|&t| side(model, values, e, t))
-                    .collect();
-                grazed(model, e, around, &sides, &mut grazing);
+                let sides = sides_of(e);
+                dented.extend(dents(model, &sides));
+                grazed(model, e, around, &sides, &none, &mut grazing);
                 let mut at = [None; 2];
                 for (k, side) in sides.iter().enumerate() {
                     if side.changes() && side.face.is_some() {
@@ -133,11 +141,13 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
                     folded(model, e, &sides, at, &mut folds);
                 }
             }
-            Contour { crossings, folds, grazing }
+            (Contour { crossings, folds, grazing }, dented)
         })
         .collect();
     let mut out = Contour { crossings: Vec::new(), folds: Vec::new(), grazing: Vec::new() };
-    for part in found {
+    let mut dented = Dents::default();
+    for (part, dents) in found {
+        dented.extend(dents);
         let first = out.crossings.len() as u32;
         out.grazing.extend(part.grazing);
         out.crossings.extend(part.crossings);
@@ -149,6 +159,16 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
             }
             fold
         }));
+    }
+    if !dented.is_empty() {
+        // Anew, the chords that end where a triangle beside the border folds over.
+        let mut there = vec![false; model.points.len()];
+        dented.iter().for_each(|&(_, vertex)| there[vertex as usize] = true);
+        let again = |e: &usize| model.edges[*e].iter().any(|&vertex| there[vertex as usize]) && bounds(*e);
+        let again: Vec<usize> = (0..model.offsets.len() - 1).filter(again).collect();
+        out.grazing.retain(|grazing| again.binary_search(&(grazing.edge as usize)).is_err());
+        again.iter().for_each(|&e| grazed(model, e, around(e), &sides_of(e), &dented, &mut out.grazing));
+        out.grazing.sort_by_key(|grazing| grazing.edge);
     }
     out
 }

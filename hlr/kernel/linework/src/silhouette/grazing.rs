@@ -10,6 +10,8 @@
 //!     front|  back: seen                 front ___|  back: hidden
 //! ```
 
+use rustc_hash::FxHashSet;
+
 use super::face::{Face, root};
 use super::refine::rise;
 use super::side::Side;
@@ -50,8 +52,20 @@ const NEEDLE: f64 = 1e-9;
 /// single chord, however often the face turns over along it.
 const ASKED: usize = 8;
 
-pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], out: &mut Vec<Grazing>) {
-    let grazes = |side: &&Side| side.face.is_some() && (seen_edge_on(model, side) || dented(model, side));
+/// Faces and vertices of their borders at which a triangle beside the border folds over (`dented`). It may lie in front
+/// of the next chord of the border as well.
+pub type Dents = FxHashSet<(i32, i32)>;
+
+/// The ends of the edge at those faces whose triangle beside it folds over.
+pub fn dents<'a>(model: &'a Model, sides: &'a [Side]) -> impl Iterator<Item = (i32, i32)> + 'a {
+    let folded = sides.iter().filter(|side| side.face.is_some() && dented(model, side));
+    folded.flat_map(|side| side.corners.map(|vertex| (side.number, vertex)))
+}
+
+pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], dents: &Dents, out: &mut Vec<Grazing>) {
+    let dented =
+        |side: &Side| dented(model, side) || side.corners.iter().any(|&vertex| dents.contains(&(side.number, vertex)));
+    let grazes = |side: &&Side| side.face.is_some() && (seen_edge_on(model, side) || dented(side));
     let found: Vec<(&Side, Vec<(f64, f64)>)> = sides.iter().filter(grazes).map(|side| (side, turns(side))).collect();
     let mut stops: Vec<f64> = found.iter().flat_map(|(_, turns)| turns.iter().map(|turn| turn.0)).collect();
     stops.extend([0.0, 1.0]);
@@ -69,7 +83,7 @@ pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], out: &mut
             let normals = range.map(|t| side.normal_at(t));
             let rise = (turning == Some(at))
                 .then(|| [0, 1].map(|k| rise(model, &[side.triangle], &on_edge(model, e, range[k]), &normals[k])));
-            let (front, dented) = (f < 0.0, dented(model, side));
+            let (front, dented) = (f < 0.0, dented(side));
             out.push(Grazing { edge: e as u32, range, face: side.number, normals, front, beside, dented, rise });
         }
     }
