@@ -38,10 +38,8 @@ def matrix4(rows: MatrixRows) -> Floats:
 
 def matrices4(placements: Sequence[MatrixRows]) -> Floats:
     """The matrices (n, 4, 4) of placements; minus zeros become zeros."""
-    whole = np.zeros((len(placements), 4, 4))
-    whole[:, :3] = np.array(placements, np.float64).reshape(-1, 3, 4)
-    whole[:, :3] += 0.0
-    whole[:, 3, 3] = 1.0
+    whole: Floats = np.array([(*rows, 0.0, 0.0, 0.0, 1.0) for rows in placements], np.float64).reshape(-1, 4, 4)
+    whole += 0.0
     return whole
 
 

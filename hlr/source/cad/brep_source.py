@@ -84,6 +84,8 @@ class BrepSource:
         # A prototype without faces takes no time to mesh, whereas a model without it would have to be read anew.
         self._used_prototypes = [i for i, has in enumerate(self._prototypes.has_faces) if i in used or not has]
         self._prototype_numbers: Ints = np.array([part.prototype for part in self._parts], np.int32)
+        # The number of each part's prototype among those that are used.
+        self._used_numbers: Ints = np.searchsorted(self._used_prototypes, self._prototype_numbers).astype(np.int32)
         self._places: Floats = np.array([part.transform for part in self._parts])
         self._corners: tuple[Floats, Floats] | None = None
         self._bounds: Floats | None = None
@@ -131,11 +133,6 @@ class BrepSource:
         May be a little too far: splines count by the control points of small pieces.
         """
         return self._part_tessellator.reach(self._used_numbers, self._places, right, up)
-
-    @property
-    def _used_numbers(self) -> Ints:
-        """(p,) the number of each part's prototype among those that are used."""
-        return np.searchsorted(self._used_prototypes, self._prototype_numbers).astype(np.int32)
 
     @property
     def _placed(self) -> tuple[Floats, Floats]:
@@ -216,25 +213,26 @@ class BrepSource:
             raise SourceError(
                 f"{self._name} would have more than 16 million triangles: give a coarser accuracy, or a smaller scale."
             ) from None
-        numbers = self._used_numbers
-        triangles = np.diff(tables.triangle_start)[numbers]
-        meshed = (triangles > 0) | ~np.array(self._prototypes.has_faces)[self._prototype_numbers]
-        kept, notes = self._parts, []
-        if faults or not meshed.all():
+        prototypes, kept, notes = self._used_numbers, self._parts, []
+        transforms = np.ascontiguousarray(self._places[:, :3])
+        triangles = np.diff(tables.triangle_start)[prototypes]
+        if faults or not triangles.all():
+            meshed = (triangles > 0) | ~np.array(self._prototypes.has_faces)[self._prototype_numbers]
             kept = [part for part, is_meshed in zip(self._parts, meshed, strict=True) if is_meshed]
-            for part, number, is_meshed in zip(self._parts, numbers.tolist(), meshed.tolist(), strict=True):
+            for part, number, is_meshed in zip(self._parts, prototypes.tolist(), meshed.tolist(), strict=True):
                 a, b = tables.face_start[number : number + 2]
                 notes += faults.notes(part.name, tables.face_shape[a:b])
                 if not is_meshed:
                     text = f'Part "{part.name}" has no triangles and was left out.'
                     notes.append(Note("part-left-out", text))
+            prototypes, transforms = prototypes[meshed], transforms[meshed]
         if not kept:
             raise SourceError(f"{self._name}: none of its faces could be meshed.")
-        starts = tables.face_start
-        faces = (tables.face_shape[starts[i] : starts[i + 1]] for i in numbers)
-        notes += faults.off_note((part.name, own) for part, own in zip(self._parts, faces, strict=True))
+        if faults.off:
+            starts = tables.face_start
+            faces = (tables.face_shape[starts[i] : starts[i + 1]] for i in self._used_numbers)
+            notes.append(faults.off_note((part.name, own) for part, own in zip(self._parts, faces, strict=True)))
         check_triangle_count(int(triangles.sum()))
-        prototypes, transforms = numbers[meshed], self._places[meshed, :3]
         placed = tables.placed(prototypes, transforms, _precisions(tables)[prototypes])
 
         def edge_curves(part: Ints, edge: Ints) -> EdgeCurves:

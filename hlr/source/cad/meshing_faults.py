@@ -52,10 +52,8 @@ class MeshingFaults:
             notes.append(Note("loops-turned", f"{of.format(len(turned))} {what} ({_listed(turned)})."))
         return notes
 
-    def off_note(self, parts: Iterable[tuple[str, Ints]]) -> list[Note]:
-        """One note on all faces that lie off their edges. parts: of each its name, and `face_shape` as above."""
-        if not self.off:
-            return []
+    def off_note(self, parts: Iterable[tuple[str, Ints]]) -> Note:
+        """The note on all faces that lie off their edges. parts: of each its name, and `face_shape` as above."""
         farthest = max(self.off, key=lambda number: self.off[number])
         places = ((name, np.flatnonzero(face_shape == farthest)) for name, face_shape in parts)
         name, face = next((name, int(found[0])) for name, found in places if len(found))
@@ -65,7 +63,7 @@ class MeshingFaults:
         else:
             found = f"{len(self.off)} faces lie {far} their own edges (the farthest is {where})"
         text = f"In the model itself {found}: lines there cannot be more exact than that."
-        return [Note("faces-off-edges", text)]
+        return Note("faces-off-edges", text)
 
 
 def _listed(faces: list[int]) -> str:
