@@ -85,7 +85,9 @@ class BrepSource:
         self._used_prototypes = [i for i, has in enumerate(self._prototypes.has_faces) if i in used or not has]
         self._prototype_numbers: Ints = np.array([part.prototype for part in self._parts], np.int32)
         # The number of each part's prototype among those that are used.
-        self._used_numbers: Ints = np.searchsorted(self._used_prototypes, self._prototype_numbers).astype(np.int32)
+        self._used_numbers = self._prototype_numbers
+        if len(self._used_prototypes) < len(self._prototypes.has_faces):
+            self._used_numbers = np.searchsorted(self._used_prototypes, self._prototype_numbers).astype(np.int32)
         self._places: Floats = np.array([part.transform for part in self._parts])
         self._corners: tuple[Floats, Floats] | None = None
         self._bounds: Floats | None = None
@@ -215,7 +217,8 @@ class BrepSource:
             ) from None
         prototypes, kept, notes = self._used_numbers, self._parts, []
         transforms = np.ascontiguousarray(self._places[:, :3])
-        triangles = np.diff(tables.triangle_start)[prototypes]
+        starts = tables.triangle_start
+        triangles = (starts[1:] - starts[:-1])[prototypes]
         if faults or not triangles.all():
             meshed = (triangles > 0) | ~np.array(self._prototypes.has_faces)[self._prototype_numbers]
             kept = [part for part, is_meshed in zip(self._parts, meshed, strict=True) if is_meshed]
@@ -229,8 +232,8 @@ class BrepSource:
         if not kept:
             raise SourceError(f"{self._name}: none of its faces could be meshed.")
         if faults.off:
-            starts = tables.face_start
-            faces = (tables.face_shape[starts[i] : starts[i + 1]] for i in self._used_numbers)
+            first = tables.face_start
+            faces = (tables.face_shape[first[i] : first[i + 1]] for i in self._used_numbers)
             notes.append(faults.off_note((part.name, own) for part, own in zip(self._parts, faces, strict=True)))
         check_triangle_count(int(triangles.sum()))
         placed = tables.placed(prototypes, transforms, _precisions(tables)[prototypes])
