@@ -74,9 +74,10 @@ def one(path: Path, accuracy: float) -> dict[str, Any]:
 
 def tried(path: Path, accuracy: float, limit: float) -> dict[str, Any]:
     """The same in a process of its own; `failed` says why there is nothing."""
-    command = [sys.executable, __file__, str(path), "--one", str(accuracy)]
+    command = [sys.executable, "-m", "bench.promise", str(path.resolve()), "--one", str(accuracy)]
+    tests = Path(__file__).resolve().parents[1]
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=limit, check=False)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=limit, check=False, cwd=tests)
     except subprocess.TimeoutExpired:
         return {"failed": f"not finished in {limit:g} s"}
     if done.returncode:
