@@ -167,7 +167,14 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
         let again = |e: &usize| model.edges[*e].iter().any(|&vertex| there[vertex as usize]) && bounds(*e);
         let again: Vec<usize> = (0..model.offsets.len() - 1).filter(again).collect();
         out.grazing.retain(|grazing| again.binary_search(&(grazing.edge as usize)).is_err());
-        again.iter().for_each(|&e| grazed(model, e, around(e), &sides_of(e), &dented, &mut out.grazing));
+        let anew = again.par_iter().flat_map_iter(|&e| {
+            let mut found = Vec::new();
+            if !stopped() {
+                grazed(model, e, around(e), &sides_of(e), &dented, &mut found);
+            }
+            found
+        });
+        out.grazing.par_extend(anew);
         out.grazing.sort_by_key(|grazing| grazing.edge);
     }
     out
