@@ -234,7 +234,8 @@ class Tolerances:
     rounding       the same for lines that lie on surfaces, and for open sheets
     short          no figure shorter than this is drawn on its own, on paper
     flip           a visible or hidden piece shorter than this takes the state of what its line does beside it, on paper
-    stub           a doubtful piece shorter than this beside a hidden one is hidden, on paper
+    stub           a doubtful piece shorter than this beside a hidden one is hidden, on paper; a longer one is so where
+                   the line goes through a surface
     width          lines of one visibility this close coincide, on paper
     under          a hidden line this close to a visible one lies under its ink, on paper
     thin_paper     vertices this close to their line are left out, on paper

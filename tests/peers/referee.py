@@ -3,6 +3,7 @@
     python -m peers.referee FOLDER_OR_FILES... [--views front,top,right,iso] [--random 2] [--table out.md]
     python -m peers.referee part.step --view iso --view 1,-2,3 --why --png pictures
     python -m peers.referee M6.step --views iso --peer occt-exact --why
+    python -m peers.referee part.step --perspective 60
 
 Reported are wrong lines (`support.referee.judge` says what that is), missing lines (`missing`), edges off their own
 curves (`off_curve`) and lost faces (`lost`). The diagonal of a model is 300 mm on paper, the accuracy a 20000th of it;
@@ -72,16 +73,29 @@ def view_name(view: View) -> str:
     return view if isinstance(view, str) else ",".join(f"{value:.6g}" for value in view)
 
 
-def draw_with_hlr(path: Path, views: Sequence[View], model: reference.Reference) -> Iterator[Drawn]:
-    """All views in one call, as a user would; what is judged is the JSON that is written."""
+def draw_with_hlr(
+    path: Path, views: Sequence[View], model: reference.Reference, fov: float | None = None
+) -> Iterator[Drawn]:
+    """All views in one call, as a user would; what is judged is the JSON that is written.
+
+    fov   in perspective, this many degrees wide; None: without
+    """
     import hlr
     from hlr.drawing.saving import render
     from hlr.errors import HlrError
-    from hlr.request.options import Options
+    from hlr.request.options import Options, Perspective
 
     # The reference holds every face of the file, those of annotation too.
     scale, accuracy = SHEET / (model.diagonal * model.unit), SHEET / model.fineness
-    options = Options(hidden=True, scale=scale, accuracy=accuracy, annotations=True, smooth=False, details=True)
+    options = Options(
+        hidden=True,
+        scale=scale,
+        accuracy=accuracy,
+        annotations=True,
+        smooth=False,
+        details=True,
+        perspective=None if fov is None else Perspective(fov=fov),
+    )
     start = time.perf_counter()
     own: list[reference.Reference] = []
     try:
@@ -151,10 +165,10 @@ def draw_with_occt(path: Path, views: Sequence[View], method: str, timeout: floa
 
 
 def drawings(
-    path: Path, views: Sequence[View], peer: str, model: reference.Reference, timeout: float
+    path: Path, views: Sequence[View], peer: str, model: reference.Reference, timeout: float, fov: float | None
 ) -> Iterator[Drawn]:
     if peer == "hlr":
-        return draw_with_hlr(path, views, model)
+        return draw_with_hlr(path, views, model, fov)
     if path.suffix.lower() not in reference.BREP:
         return iter([Drawn("all", "no B-rep, nothing for OpenCASCADE to draw", 0.0)])
     return draw_with_occt(path, views, peer.removeprefix("occt-"), timeout)
@@ -174,6 +188,7 @@ def judge_file(
     peers: Sequence[str] = ("hlr",),
     *,
     timeout: float = 120.0,
+    fov: float | None = None,
     fineness: float = reference.FINENESS,
     cache: Path | None = None,
     pixels: int = PIXELS,
@@ -192,7 +207,7 @@ def judge_file(
         file=sys.stderr,
     )
     for peer in peers:
-        for drawn in drawings(path, views, peer, model, timeout):
+        for drawn in drawings(path, views, peer, model, timeout, fov):
             if isinstance(drawn.drawing, str):
                 yield Judged(report.Row(path.name, drawn.view, peer, failure=drawn.drawing))
             else:
@@ -225,6 +240,7 @@ def judge_models(given: argparse.Namespace) -> Iterator[Judged]:
             views,
             given.peer or ["hlr"],
             timeout=given.timeout,
+            fov=given.perspective,
             fineness=given.fineness,
             cache=given.cache,
             pixels=given.pixels,
@@ -239,6 +255,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--views", default=VIEWS, help=f"names, separated by commas (default {VIEWS}); all; '' for none"
     )
     parser.add_argument("--random", type=int, default=0, metavar="N", help="N random views more")
+    parser.add_argument("--perspective", type=float, metavar="FOV", help="hlr draws in perspective, FOV degrees wide")
     parser.add_argument("--seed", type=int, default=1, help="of the random views")
     parser.add_argument("--peer", action="append", choices=PEERS, help="who draws (default hlr); may be repeated")
     parser.add_argument("--against", type=Path, metavar="MODEL", help="judge the drawings given against this model")

@@ -48,7 +48,7 @@ pub fn run(data: &[u8]) {
         if case.traits[id].noisy {
             limits.noise = geometry.noise(edges, limits.short);
         }
-        lines.extend(cut(&geometry, edges, reversed, id as u32, &limits));
+        lines.extend(cut(&geometry, edges, reversed, id as u32, &limits, &|_| false));
     }
     check_lines(&case, &lines, "cut");
     if case.proper {

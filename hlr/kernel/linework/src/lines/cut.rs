@@ -4,7 +4,9 @@ use rayon::prelude::*;
 
 use super::candidates::Chains;
 use super::coincident::{Widths, uncovered};
+use super::drawing::Kind;
 use super::ends::Ends;
+use super::meetings::Meetings;
 use super::runs::{self, Geometry, Limits};
 use super::simplify::simplify;
 use super::specks::drop_specks;
@@ -53,6 +55,7 @@ pub fn cut(
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Option<Cut> {
     let view = &geometry.camera.view();
+    let met = Meetings::new(geometry, chains, t.accuracy / geometry.camera.scale);
     let limits = Limits { short: t.flip, stub: t.stub, noise: t.flip };
     let lines: Vec<Polyline> = (0..traits.len())
         .into_par_iter()
@@ -62,7 +65,9 @@ pub fn cut(
             if traits[c].noisy {
                 limits.noise = geometry.noise(edges, t.short);
             }
-            runs::cut(geometry, edges, reversed, c as u32, &limits)
+            // Intersection lines go through nothing: they lie on both surfaces.
+            let through = |p: &[f64; 3]| chains.about[c].kind != Kind::INTERSECTION && met.at(p);
+            runs::cut(geometry, edges, reversed, c as u32, &limits, &through)
         })
         .collect();
     if stopped() {

@@ -14,6 +14,7 @@ impl Kind {
     pub const SHARP: Kind = Kind(0);
     pub const BOUNDARY: Kind = Kind(3);
     pub const OUTLINE: Kind = Kind(4);
+    pub const INTERSECTION: Kind = Kind(5);
 }
 
 /// The curve of a line on paper, where its points are only samples of it; millimetres, y up.

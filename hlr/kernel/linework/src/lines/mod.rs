@@ -25,6 +25,7 @@ mod drawn;
 pub mod ends;
 pub mod finish;
 mod gaps;
+mod meetings;
 mod pairs;
 pub mod runs;
 pub mod simplify;

@@ -89,19 +89,29 @@ impl Bodies<'_> {
         let across = clash.triangles.map(|t| self.across(t));
         let (reach, mut level) = self.corners_beyond(clash, &across);
         let steep = clash.meeting.sine >= SLIGHT_ANGLE;
+        // A triangle that has only a corner or a side on the other's plane does not tell which way the surfaces cross.
+        let astride = level[0].min(level[1]) > CONTACT_POINT * touch;
+        let apart =
+            if solid && !steep && astride { self.sheet.apart(clash.triangles, middle, touch) } else { f64::INFINITY };
+        // Two planar faces in nearly one plane come apart by what their file rounded, over any length: that closes no gap
+        // between lines (`level`), and only where it is more than a contact is it a line (`beyond`).
+        let curved = planes.iter().any(Option::is_none);
         let mut beyond = f64::INFINITY;
         for k in 0..2 {
-            if solid {
+            if curved && apart.is_finite() {
+                level[k] = apart;
+            } else if solid {
                 let here = self.sheet.reach(&across[k].normal, clash.triangles[1 - k], middle, touch);
                 level[k] = if steep && here.is_finite() { here } else { level[k].min(here) };
             }
+            let deep = if apart.is_finite() { apart } else { level[k] };
             // A planar face has no chord error: how far a wall goes beyond it is known, and another planar face at any
             // angle.
             let forgiven = match (planes[k], planes[1 - k]) {
                 (Some(plane), other) if steep || other.is_some() => touch.min(FLUSH * self.deflection + plane.off),
                 _ => touch,
             };
-            beyond = beyond.min(level[k] - forgiven);
+            beyond = beyond.min(deep - forgiven);
         }
         let way = minus(ends[1], ends[0]);
         if solid && dot(&way, &way).sqrt() <= CONTACT_POINT * self.deflection {

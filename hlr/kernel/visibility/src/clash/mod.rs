@@ -12,6 +12,7 @@
 //! 4. `depth`         how deep the surfaces go through each other: touching ones cross as well, by tessellation errors
 //!    `planes`        the planes of planar faces, from which depths are measured
 //!    `reach`         how far a surface goes beyond a triangle that it crosses, near the crossing
+//!    `apart`         the same of two surfaces that cross at a small angle: how far they come apart
 //!    `chord_ends`    planar faces that cross only because their curved borders are drawn as chords
 //! 5. `contacts`      which segments are more than a contact
 //!
@@ -21,6 +22,7 @@
 //! without triangles, which the visibility pass treats like any wire: their ends, rounded to the grid, lie off both
 //! surfaces by less than the contact tolerance.
 
+pub mod apart;
 pub mod boxes_meet;
 pub mod chord_ends;
 pub mod contacts;

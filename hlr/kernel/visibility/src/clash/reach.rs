@@ -34,14 +34,14 @@ const LEVEL: f64 = 0.1;
 /// The same as a share of the sine at the start: a section that begins flat may become flatter.
 const FLATTER: f64 = 0.3;
 /// Sine of an angle: planes that are parallel except for rounding have no cross-section.
-const PARALLEL: f64 = 1e-9;
-const STEPS: usize = 1000;
+pub const PARALLEL: f64 = 1e-9;
+pub const STEPS: usize = 1000;
 
 /// Where the section leaves a triangle: over its side k, at a place relative to the section's start.
 #[derive(Clone, Copy)]
-struct Exit {
-    side: usize,
-    place: Vec3,
+pub struct Exit {
+    pub side: usize,
+    pub place: Vec3,
 }
 
 impl Sheet<'_> {
@@ -55,9 +55,7 @@ impl Sheet<'_> {
         }
         let section = across.map(|c| c / sine);
         let level = LEVEL.min(FLATTER * sine);
-        let corners = self.corners(of, at);
-        let exits: Vec<Exit> = (0..3).filter_map(|side| leave(&corners, side, &section)).collect();
-        let [a, b] = exits[..] else { return f64::INFINITY };
+        let Some([a, b]) = self.exits(of, at, &section) else { return f64::INFINITY };
         let (high, low) = if dot(&a.place, up) > dot(&b.place, up) { (a, b) } else { (b, a) };
         let climb = |exit, up: &Vec3| self.climb((of, exit), at, &section, up, level, most);
         climb(high, up).min(climb(low, &up.map(|c| -c)))
@@ -78,15 +76,11 @@ impl Sheet<'_> {
             if height >= most {
                 return height;
             }
-            let Some((next, entry)) = self.beyond(triangle, exit.side) else { return height };
+            let Some((next, left)) = self.onward(triangle, exit.side, at, section) else { return height };
             let turn = dot(&self.normals[triangle as usize], &self.normals[next as usize]);
-            if turn < SMOOTH || (turn < SHALLOW && self.sharp(triangle, exit.side)) {
+            if turn < SHALLOW && self.sharp(triangle, exit.side) {
                 return height;
             }
-            let corners = self.corners(next, at);
-            let Some(left) = [1, 2].iter().find_map(|k| leave(&corners, (entry + k) % 3, section)) else {
-                return height;
-            };
             let way = minus(&left.place, &exit.place);
             let higher = dot(&left.place, up);
             if higher - height < level * dot(&way, &way).sqrt() {
@@ -95,6 +89,25 @@ impl Sheet<'_> {
             (triangle, exit, height) = (next, left, higher);
         }
         f64::INFINITY
+    }
+
+    /// The next triangle along a section, and where the section leaves it; None where the surface ends or turns by
+    /// more than facets do.
+    pub fn onward(&self, triangle: u32, side: usize, at: &Vec3, section: &Vec3) -> Option<(u32, Exit)> {
+        let (next, entry) = self.beyond(triangle, side)?;
+        if dot(&self.normals[triangle as usize], &self.normals[next as usize]) < SMOOTH {
+            return None;
+        }
+        let corners = self.corners(next, at);
+        let left = [1, 2].iter().find_map(|k| leave(&corners, (entry + k) % 3, section))?;
+        Some((next, left))
+    }
+
+    /// Where a section through `at` leaves the triangle it begins in; None unless at two places.
+    pub fn exits(&self, triangle: u32, at: &Vec3, section: &Vec3) -> Option<[Exit; 2]> {
+        let corners = self.corners(triangle, at);
+        let exits: Vec<Exit> = (0..3).filter_map(|side| leave(&corners, side, section)).collect();
+        <[Exit; 2]>::try_from(exits).ok()
     }
 
     fn corners(&self, triangle: u32, at: &Vec3) -> [Vec3; 3] {
@@ -108,7 +121,8 @@ impl Sheet<'_> {
         self.edges.binary_search(&[a.min(b), a.max(b)]).ok()
     }
 
-    fn sharp(&self, triangle: u32, side: usize) -> bool {
+    /// Whether a side is a sharp edge of the source.
+    pub fn sharp(&self, triangle: u32, side: usize) -> bool {
         self.edge(triangle, side).is_some_and(|e| self.kinds[e] == SHARP)
     }
 

@@ -1,0 +1,124 @@
+use super::*;
+
+/// Along z: x and y are those on paper.
+const CAMERA: Camera =
+    Camera { direction: [0.0, 0.0, -1.0], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0], eye: None, scale: 1.0 };
+const LIMITS: Limits = Limits { short: 0.5, stub: 2.0, noise: 0.5 };
+
+/// Lines along a straight chain of unit edges with the given states: (visible, x from, x to).
+fn lines(states: &[State]) -> Vec<(bool, f64, f64)> {
+    lines_within(states, &LIMITS)
+}
+
+fn lines_within(states: &[State], limits: &Limits) -> Vec<(bool, f64, f64)> {
+    let n = states.len();
+    let space: Vec<[f64; 3]> = (0..=n).map(|i| [i as f64, 0.0, 0.0]).collect();
+    let edges: Vec<[i32; 2]> = (0..n as i32).map(|i| [i, i + 1]).collect();
+    let pieces: Vec<Piece> = states.iter().map(|&state| Piece { start: 0.0, end: 1.0, state }).collect();
+    let ids: Vec<i32> = (0..n as i32).collect();
+    let g = Geometry { camera: &CAMERA, space: &space, edges: &edges, pieces: &pieces, piece_edge: &ids };
+    let found = cut(&g, &ids, &vec![false; n], 0, limits, &|_| false);
+    found.iter().map(|l| (l.visible, l.flat[0][0], l.flat[l.flat.len() - 1][0])).collect()
+}
+
+/// Lines around a closed chain whose edges have these lengths and states, begun at edge `first`, as stretches
+/// (visible, from, to) of its perimeter.
+fn around(edges: &[(State, f64)], first: usize, limits: &Limits) -> Vec<(bool, f64, f64)> {
+    let n = edges.len();
+    // Out along one side and back along the other: the height tells the two sides apart.
+    let total: f64 = edges.iter().map(|e| e.1).sum();
+    let starts: Vec<f64> = (0..n).map(|i| edges[..i].iter().map(|e| e.1).sum()).collect();
+    let corner = (0..n).find(|&i| (starts[i] - 0.5 * total).abs() < 1e-9).expect("a vertex halfway");
+    let space: Vec<[f64; 3]> =
+        (0..n).map(|i| if i <= corner { [starts[i], 0.0, 0.0] } else { [total - starts[i], 1e-6, 0.0] }).collect();
+    let of = |i: usize| (first + i) % n;
+    let ends: Vec<[i32; 2]> = (0..n).map(|i| [of(i) as i32, of(i + 1) as i32]).collect();
+    let pieces: Vec<Piece> = (0..n).map(|i| Piece { start: 0.0, end: 1.0, state: edges[of(i)].0 }).collect();
+    let ids: Vec<i32> = (0..n as i32).collect();
+    let g = Geometry { camera: &CAMERA, space: &space, edges: &ends, pieces: &pieces, piece_edge: &ids };
+    let place = |p: &[f64; 2]| ((if p[1] > 0.0 { total - p[0] } else { p[0] }) * 1e3).round() * 1e-3;
+    let found = cut(&g, &ids, &vec![false; n], 0, limits, &|_| false);
+    let mut lines: Vec<_> =
+        found.iter().map(|l| (l.visible, place(&l.flat[0]), place(&l.flat[l.flat.len() - 1]))).collect();
+    lines.sort_by(|a, b| a.1.total_cmp(&b.1));
+    lines
+}
+
+#[test]
+fn lines_around_a_closed_chain_do_not_depend_on_where_it_begins() {
+    use State::{Hidden as H, Visible as V};
+    // Perimeter 12: a hidden run of 0.3 is too short; the visible ones around it are not, wherever it starts.
+    let short_gap = [(V, 0.1), (H, 2.9), (V, 3.0), (V, 1.0), (H, 3.0), (V, 1.25), (H, 0.3), (V, 0.45)];
+    let mirrored: Vec<(State, f64)> = short_gap.iter().rev().copied().collect();
+    // A visible run of 0.2, which may be cut in two by the start of the chain.
+    let short_run = [(V, 0.1), (H, 2.9), (H, 0.1), (V, 2.9), (H, 3.0), (H, 2.9), (V, 0.1)];
+    let noisy = Limits { noise: 0.45, ..LIMITS };
+    for first in 0..short_gap.len() {
+        let found = around(&short_gap, first, &noisy);
+        assert_eq!(found, [(false, 0.1, 3.0), (true, 3.0, 7.0), (false, 7.0, 10.0), (true, 10.0, 0.1)], "{first}");
+    }
+    for first in 0..mirrored.len() {
+        let found = around(&mirrored, first, &noisy);
+        assert_eq!(found, [(false, 2.0, 5.0), (true, 5.0, 9.0), (false, 9.0, 11.9), (true, 11.9, 2.0)], "{first}");
+    }
+    for first in 0..short_run.len() {
+        let found = around(&short_run, first, &LIMITS);
+        assert_eq!(found, [(true, 3.1, 6.0), (false, 6.0, 3.1)], "{first}");
+    }
+}
+
+#[test]
+fn noise_is_a_few_edges_long_within_bounds() {
+    let noise = |edge: f64| {
+        let space = &[[0.0; 3], [edge, 0.0, 0.0], [edge, edge, 0.0]];
+        let g = Geometry { camera: &CAMERA, space, edges: &[[0, 1], [1, 2]], pieces: &[], piece_edge: &[] };
+        g.noise(&[0, 1], 0.5)
+    };
+    assert_eq!(noise(0.001), 0.5, "never less than what is too short anyway");
+    assert_eq!(noise(0.4), 1.0, "two edges and a half");
+    assert_eq!(noise(100.0), 3.0, "six times what is too short");
+}
+
+#[test]
+fn a_long_run_is_hidden_from_where_the_line_goes_through_a_surface() {
+    use State::{Diving as D, Hidden as H, Visible as V, Within as W};
+    let through = |states: &[State], at: usize, closed: bool| {
+        let run = |(k, &state): (usize, &State)| Run { state, from: (k, 0.0), to: (k + 1, 0.0), length: 3.0 };
+        let runs: Vec<Run> = states.iter().enumerate().map(run).collect();
+        let settled = settle(runs, &LIMITS, closed, |stop| stop.0 == at);
+        settled.iter().map(|run| (run.state == V, run.from.0, run.to.0)).collect::<Vec<_>>()
+    };
+    assert_eq!(through(&[V, D, H], 9, false), [(true, 0, 2), (false, 2, 3)], "a contact");
+    assert_eq!(through(&[V, D, H], 1, false), [(true, 0, 1), (false, 1, 3)]);
+    assert_eq!(through(&[V, D, H], 2, false), [(true, 0, 2), (false, 2, 3)], "goes through elsewhere");
+    assert_eq!(through(&[V, W, D, H], 1, false), [(true, 0, 1), (false, 1, 4)]);
+    assert_eq!(through(&[H, D, W, V], 3, false), [(false, 0, 3), (true, 3, 4)]);
+    assert_eq!(through(&[D, H, V], 0, true), [(false, 0, 2), (true, 2, 3)], "around a closed chain");
+}
+
+#[test]
+fn equal_states_join_across_mesh_edges() {
+    use State::{Hidden as H, Visible as V};
+    assert_eq!(lines(&[V, V, H, H, H]), [(true, 0.0, 2.0), (false, 2.0, 5.0)]);
+}
+
+#[test]
+fn a_contour_that_its_own_folds_hide_is_whole() {
+    use State::{Hidden as H, Visible as V};
+    let noisy = Limits { noise: 1.5, ..LIMITS };
+    assert_eq!(lines_within(&[V, H, V, V, H, H, V], &noisy), [(true, 0.0, 4.0), (false, 4.0, 6.0), (true, 6.0, 7.0)]);
+    assert_eq!(lines_within(&[H, H, V, H], &noisy), [(false, 0.0, 2.0), (true, 2.0, 3.0), (false, 3.0, 4.0)]);
+}
+
+#[test]
+fn a_stub_is_hidden_and_a_contact_is_seen() {
+    use State::{Diving as D, Hidden as H, Visible as V, Within as W};
+    assert_eq!(lines(&[V, D, H]), [(true, 0.0, 1.0), (false, 1.0, 3.0)]);
+    assert_eq!(lines(&[V, W, H]), [(true, 0.0, 2.0), (false, 2.0, 3.0)]);
+    assert_eq!(lines(&[H, W, W, W]), [(false, 0.0, 1.0), (true, 1.0, 4.0)]);
+    assert_eq!(lines(&[W]), [(true, 0.0, 1.0)]);
+    // A stub that begins on the edge before, and one as long as a contact.
+    let limits = Limits { stub: 2.5, ..LIMITS };
+    assert_eq!(lines_within(&[V, W, D, H], &limits), [(true, 0.0, 1.0), (false, 1.0, 4.0)]);
+    assert_eq!(lines_within(&[V, D, D, D, H], &limits), [(true, 0.0, 4.0), (false, 4.0, 5.0)]);
+}

@@ -1,0 +1,175 @@
+//! Measures how far two surfaces that cross at a small angle come apart, on either side of where they cross.
+//!
+//! ```text
+//!    \__  first         From the middle of the common segment, the cross-sections of both surfaces are followed side by
+//!   ____\x______        side, until they cross again or one of them ends. Their greatest distance is how deep one goes
+//!   second \___  gap    beyond the other. Two tessellations of one surface cross at every facet: there it is small.
+//! ```
+
+use super::reach::{Exit, PARALLEL, STEPS, Sheet, Vec3, cross, dot};
+
+/// The cross-section of one surface. `from`, `to`: the ends of its piece on the current triangle, as (along, up).
+struct Section {
+    triangle: u32,
+    side: usize,
+    from: [f64; 2],
+    to: [f64; 2],
+}
+
+/// Where the cross-sections lie: they run through `at`, in the plane with the normal `across`; `along` and `up` span it.
+struct Frame<'a> {
+    at: &'a Vec3,
+    across: Vec3,
+    along: Vec3,
+    up: Vec3,
+}
+
+impl Frame<'_> {
+    fn flat(&self, exit: &Exit) -> [f64; 2] {
+        [dot(&exit.place, &self.along), dot(&exit.place, &self.up)]
+    }
+}
+
+impl Section {
+    /// The section that leaves a triangle forward; None if it cannot be followed.
+    fn begin(sheet: &Sheet, frame: &Frame, triangle: u32) -> Option<Section> {
+        let exits = sheet.exits(triangle, frame.at, &frame.across)?;
+        let (exit, to) = exits.iter().map(|e| (e, frame.flat(e))).max_by(|a, b| a.1[0].total_cmp(&b.1[0]))?;
+        (to[0] > 0.0).then_some(Section { triangle, side: exit.side, from: [0.0; 2], to })
+    }
+
+    /// Goes on to the next triangle; None where the surface ends, has a sharp edge or turns back.
+    fn next(self, sheet: &Sheet, frame: &Frame) -> Option<Section> {
+        // However little it turns there: a pocket ends at its rim, and what touches it may go on beyond.
+        if sheet.sharp(self.triangle, self.side) {
+            return None;
+        }
+        let (triangle, exit) = sheet.onward(self.triangle, self.side, frame.at, &frame.across)?;
+        let to = frame.flat(&exit);
+        (to[0] > self.to[0]).then_some(Section { triangle, side: exit.side, from: self.to, to })
+    }
+
+    /// The cosine of its slope on the current triangle.
+    fn level(&self) -> f64 {
+        let way = [0, 1].map(|k| self.to[k] - self.from[k]);
+        way[0] / way[0].hypot(way[1])
+    }
+
+    fn height(&self, along: f64) -> f64 {
+        let t = ((along - self.from[0]) / (self.to[0] - self.from[0])).clamp(0.0, 1.0);
+        self.from[1] + t * (self.to[1] - self.from[1])
+    }
+}
+
+impl Sheet<'_> {
+    /// How far the surfaces of two triangles that cross at `at` come apart on the side where that is less, in model
+    /// units, followed until it is `most`. Infinite where it cannot be measured.
+    pub fn apart(&self, [a, b]: [u32; 2], at: &Vec3, most: f64) -> f64 {
+        let normals = [a, b].map(|t| self.normals[t as usize]);
+        let across = cross(&normals[0], &normals[1]);
+        let sine = dot(&across, &across).sqrt();
+        if sine < PARALLEL {
+            return f64::INFINITY;
+        }
+        let across = across.map(|c| c / sine);
+        let same = if dot(&normals[0], &normals[1]) < 0.0 { -1.0 } else { 1.0 };
+        let up = [0, 1, 2].map(|k| normals[0][k] + same * normals[1][k]);
+        let size = dot(&up, &up).sqrt();
+        let up = up.map(|c| c / size);
+        let along = cross(&across, &up);
+        let side = |along| self.apart_ahead([a, b], &Frame { at, across, along, up }, most);
+        side(along).min(side(along.map(|c| -c)))
+    }
+
+    fn apart_ahead(&self, [a, b]: [u32; 2], frame: &Frame, most: f64) -> f64 {
+        let (Some(mut a), Some(mut b)) = (Section::begin(self, frame, a), Section::begin(self, frame, b)) else {
+            return f64::INFINITY;
+        };
+        let mut widest: f64 = 0.0;
+        for _ in 0..STEPS {
+            let here = a.to[0].min(b.to[0]);
+            // Across the steeper of both: where a section bends round, the same surface a chord error aside is much higher.
+            let gap = (a.height(here) - b.height(here)) * a.level().min(b.level());
+            if gap * widest < 0.0 {
+                break;
+            }
+            if gap.abs() > widest.abs() {
+                widest = gap;
+            }
+            if widest.abs() >= most {
+                break;
+            }
+            let (done_a, done_b) = (a.to[0] <= here, b.to[0] <= here);
+            let ahead = |section: Section, done| if done { section.next(self, frame) } else { Some(section) };
+            let (Some(next_a), Some(next_b)) = (ahead(a, done_a), ahead(b, done_b)) else { break };
+            (a, b) = (next_a, next_b);
+        }
+        widest.abs()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hlr_mesh::kinds::{INTERIOR, SHARP};
+    use hlr_mesh::topology;
+
+    /// How far two surfaces come apart, each a profile of (x, z) drawn out along y, where their pieces numbered `cross`
+    /// cross. All edges are of one class.
+    fn apart(profiles: [&[[f64; 2]]; 2], cross: [usize; 2], kind: u8) -> f64 {
+        let (mut points, mut triangles, mut of) = (Vec::new(), Vec::new(), [0; 2]);
+        for (k, profile) in profiles.iter().enumerate() {
+            let first = points.len() as i32;
+            of[k] = triangles.len() as u32 + 2 * cross[k] as u32;
+            points.extend(profile.iter().flat_map(|&[x, z]| [[x, -5.0, z], [x, 5.0, z]]));
+            for piece in 0..profile.len() as i32 - 1 {
+                let a = first + 2 * piece;
+                triangles.extend([[a, a + 2, a + 1], [a + 1, a + 2, a + 3]]);
+            }
+        }
+        let t = topology::topology(&triangles, points.len());
+        let normals = &topology::normals(&points, &triangles)[..];
+        let kinds = &vec![kind; t.edges.len()][..];
+        let (edges, offsets, incident) = (&t.edges[..], &t.offsets[..], &t.incident[..]);
+        let sheet = Sheet { points: &points, triangles: &triangles, edges, offsets, incident, kinds, normals };
+        let [[p, q], [r, s]] = [0, 1].map(|k| [profiles[k][cross[k]], profiles[k][cross[k] + 1]]);
+        let height = |a: [f64; 2], b: [f64; 2], x: f64| a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]);
+        let gap = |x: f64| height(p, q, x) - height(r, s, x);
+        let (low, high) = (p[0].max(r[0]), q[0].min(s[0]));
+        let x = low + (high - low) * gap(low) / (gap(low) - gap(high));
+        // Near the sides y = -5 of both pieces, where their first triangles are.
+        let at = [x, -4.9, height(p, q, x)];
+        let found = sheet.apart(of, &at, 100.0);
+        assert_eq!(found, sheet.apart([of[1], of[0]], &at, 100.0), "whichever comes first");
+        found
+    }
+
+    const FLOOR: [[f64; 2]; 4] = [[-9.0, 0.0], [-1.8, 0.0], [0.4, 0.0], [9.0, 0.0]];
+
+    #[test]
+    fn surfaces_come_apart_until_they_cross_again() {
+        let dome = [[-6.0, -1.0], [-2.0, -0.2], [-1.0, 0.1], [1.0, 0.3], [2.0, 0.1], [3.0, -0.3], [5.0, -3.0]];
+        let found = apart([&FLOOR, &dome], [1, 1], INTERIOR);
+        assert!((found - 0.3).abs() < 0.01, "{found}");
+    }
+
+    #[test]
+    fn surfaces_come_apart_until_one_ends() {
+        let ramp = [[-6.0, -1.0], [-2.0, -0.2], [-1.0, 0.1]];
+        let found = apart([&FLOOR, &ramp], [1, 1], INTERIOR);
+        assert!((found - 0.1).abs() < 0.01, "{found}");
+        let bent = [[-6.0, -1.0], [-2.0, -0.2], [-1.0, 0.1], [0.0, 0.9], [1.0, 2.0]];
+        assert!((apart([&FLOOR, &bent], [1, 1], SHARP) - 0.1).abs() < 0.01, "at a sharp edge");
+        assert!(apart([&FLOOR, &bent], [1, 1], INTERIOR) > 0.9);
+    }
+
+    #[test]
+    fn two_tessellations_of_one_surface_stay_together() {
+        let arc = |first: f64| -> Vec<[f64; 2]> {
+            let turns = (0..12).map(|k| (first + 8.0 * f64::from(k)).to_radians());
+            turns.map(|turn| [-10.0 * turn.cos(), 10.0 * turn.sin()]).collect()
+        };
+        let found = apart([&arc(45.0), &arc(49.0)], [5, 4], INTERIOR);
+        assert!(found > 0.0 && found < 10.0 * (1.0 - 4f64.to_radians().cos()) * 1.01, "{found}");
+    }
+}
