@@ -19,6 +19,7 @@ from PIL import Image
 from support.programs import environment
 from support.referee import exchange, reference
 from support.referee.judge import FRACTIONS, RayCaster, judge, offenders
+from support.referee.referee import Referee
 
 
 def test_the_referee_imports_nothing_of_hlr() -> None:
@@ -202,6 +203,22 @@ def test_command_judges_a_peer_and_writes_the_table(tmp_path: Path) -> None:
     assert table.read_text().count("| box.brep") == 2
     with Image.open(tmp_path / "box-occt-exact-iso.png") as picture:
         assert picture.size[0] > 400 and len(picture.getcolors(1000) or []) > 2
+
+
+def test_command_judges_in_perspective(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The drawing judged is one in perspective; were the option lost, it would have no eye."""
+    judged: list[exchange.Exchange] = []
+    judge = Referee.judge
+
+    def noted(self: Referee, file: str, drawer: str, drawing: exchange.Exchange, *rest: Any) -> Any:
+        judged.append(drawing)
+        return judge(self, file, drawer, drawing, *rest)
+
+    monkeypatch.setattr(Referee, "judge", noted)
+    path = str(models.save("box", tmp_path))
+    assert referee.main([path, "--view", "iso", "--perspective", "50", "--fineness", "2000"]) == 0
+    assert referee.main([path, "--view", "iso", "--fineness", "2000"]) == 0
+    assert [drawing.camera.eye is None for drawing in judged] == [False, True]
 
 
 def test_command_says_when_a_peer_does_not_end(tmp_path: Path) -> None:

@@ -199,25 +199,32 @@ fn beside(runs: &[Run], i: usize, closed: bool) -> [Option<&Run>; 2] {
     [before, after]
 }
 
-/// Marks run i, in state D, and a W run before it, if the line goes through a surface where they begin. On the way from
-/// there the line is hidden by more and more, however long that takes.
-fn goes_through(runs: &[Run], i: usize, closed: bool, pierces: impl Fn((usize, f64)) -> bool, out: &mut [bool]) {
-    let n = runs.len();
-    let [before, _] = beside(runs, i, closed);
+/// Marks the D run i, and a W run that leads to it, if the line goes through a surface where they begin: from there on it
+/// is hidden by more and more, however long that takes. A D run that is a stub is hidden anyway, and not asked about.
+fn goes_through(
+    runs: &[Run],
+    i: usize,
+    limits: &Limits,
+    closed: bool,
+    pierces: impl Fn((usize, f64)) -> bool,
+    out: &mut [bool],
+) {
+    let [before, after] = beside(runs, i, closed);
     let backward = before.is_some_and(|run| run.state == State::Hidden);
-    let begin = |k: usize| if backward { runs[k].to } else { runs[k].from };
-    out[i] = pierces(begin(i));
-    let next =
-        if backward { (i + 1 < n || closed).then(|| (i + 1) % n) } else { (i > 0 || closed).then(|| (i + n - 1) % n) };
-    if let Some(k) = next.filter(|&k| !out[i] && runs[k].state == State::Within && pierces(begin(k))) {
-        (out[i], out[k]) = (true, true);
+    let begin = |run: &Run| if backward { run.to } else { run.from };
+    out[i] = runs[i].length >= limits.stub && pierces(begin(&runs[i]));
+    let leading = if backward { after } else { before };
+    if !out[i] && leading.is_some_and(|run| run.state == State::Within && pierces(begin(run))) {
+        let n = runs.len();
+        out[i] = true;
+        out[if backward { (i + 1) % n } else { (i + n - 1) % n }] = true;
     }
 }
 
 fn settle(mut runs: Vec<Run>, limits: &Limits, closed: bool, pierces: impl Fn((usize, f64)) -> bool) -> Vec<Run> {
     let mut through = vec![false; runs.len()];
     for i in (0..runs.len()).filter(|&i| runs[i].state == State::Diving) {
-        goes_through(&runs, i, closed, &pierces, &mut through);
+        goes_through(&runs, i, limits, closed, &pierces, &mut through);
     }
     // A contact is visible, however short. A D run of at least the stub length is a contact, too.
     let states: Vec<State> = (0..runs.len())
