@@ -234,6 +234,38 @@ def chain(edges: Ints, key: Ints, points: Floats | None = None, turn: float = 0.
     Chain c is edges[offsets[c]:offsets[c + 1]]: offsets, edges, and whether each is walked from second to first vertex.
     """
 
+class IntersectionCurves:
+    """The true curves of intersection lines.
+
+    points (n, 3): the points of the lines, moved onto the curves; number (c,): the curve of each line, -1 for none;
+    rise (k,): how far each curve rises above the chords between its points, model units; curve_*: records of the
+    curves, as in `Curves`.
+    """
+
+    points: Floats
+    number: Ints
+    rise: Floats
+    curve_kind: Bytes
+    curve_range: Floats
+    curve_offsets: Ints
+    curve_values: Floats
+
+def intersection_curves(
+    points: Floats,
+    triangles: Ints,
+    on: TrueSurfaces,
+    segments: tuple[Floats, Ints, Ints],
+    lines: tuple[Ints, Ints, Bools],
+    deflection: float,
+) -> IntersectionCurves:
+    """The curves in which the surfaces of faces pass through one another.
+
+    points (n, 3), triangles (t, 3): the meshes; segments: points, segments (m, 2) between them, and the two triangles
+    (m, 2) of each; lines: where each begins in the second, the segments, and whether they are walked backward, as
+    `chain` gives them; deflection: chord error of the meshes. ValueError where they do not fit, KeyboardInterrupt
+    within milliseconds of Ctrl-C.
+    """
+
 class Outlines:
     """Outlines: the curves where true surfaces are seen edge-on; and borders of faces that are seen nearly edge-on.
 
@@ -469,7 +501,8 @@ class Cut:
 
     pieces: edge, start, end and state of the visibility pass, by edge; rank (c,) uint8: of coincident lines the lower
     sixteen is drawn, of equal ones the nearer, then the lower; without_brep (c,): of a mesh without faces; hidden:
-    whether hidden lines are drawn. ValueError where they do not fit, KeyboardInterrupt within milliseconds of Ctrl-C.
+    whether hidden lines are drawn; true_points (n, 3): those of the mesh, with the points of intersection lines on the
+    true surfaces. ValueError where they do not fit, KeyboardInterrupt within milliseconds of Ctrl-C.
     """
 
     def __new__(
@@ -482,6 +515,7 @@ class Cut:
         without_brep: Bools,
         tolerances: LineTolerances,
         hidden: bool,
+        true_points: Floats | None = None,
     ) -> Cut: ...
     def __len__(self) -> int:
         """How many lines will be drawn."""
@@ -871,7 +905,7 @@ class MeshScene:
     face_inward: Bools
     face_curved: Bools
     reports: list[list[int]]
-    def crossings(self, touch: Floats, deflection: float) -> tuple[Floats, Ints, Ints, Bools, int]:
+    def crossings(self, touch: Floats, deflection: float) -> tuple[Floats, Ints, Ints, Ints, Bools, int]:
         """As in `hlr.scene.clash.Clashes`. touch (g,), model units: nearer than this to another surface, a group
         touches it; deflection: what the parts were meshed with."""
 

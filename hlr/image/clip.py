@@ -117,9 +117,11 @@ def _compact(image: Image) -> Image:
     used[image.edges.ravel()] = True
     used[image.triangles.ravel()] = True
     number = (np.cumsum(used) - 1).astype(np.int32)
+    true, met = image.true_points(), image.intersections
     return replace(
         image,
         points=image.points[used],
+        intersections=replace(met, points=true[used]) if met is not None and true is not None else None,
         silhouettes=replace(image.silhouettes, lift=image.silhouettes.lift[used]) if image.silhouettes else None,
         triangles=np.ascontiguousarray(number[image.triangles]),
         edges=np.ascontiguousarray(number[image.edges]),
@@ -302,4 +304,5 @@ def _moved_chains(chains: Chains, target: Ints, swapped: np.ndarray) -> Chains:
         other=chains.other[whole],
         face=chains.face[whole],
         straight=chains.straight[whole],
+        curve=chains.curve[whole],
     )

@@ -151,6 +151,7 @@ def _walks(shown: _kernel.Outlined, edges: int) -> Chains:
         other=none,
         face=shown.outline_face,
         straight=np.zeros(count, bool),
+        curve=none,
     )
 
 

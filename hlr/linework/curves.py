@@ -1,4 +1,4 @@
-"""The curves along which lines run: those of B-rep edges, outlines of true surfaces, circles of meshes.
+"""The curves along which lines run: those of B-rep edges, outlines, intersection lines, circles of meshes.
 
 The visibility pass works on mesh edges and decides where each line ends. The kernel then replaces each polyline by the
 interval of its curve between these ends: on paper an arc, a chain of Bezier curves or a straight line
@@ -56,6 +56,14 @@ def guides(image: Image, plan: Plan, chains: _kernel.Chains, lines: Ints, edge_c
         source = np.append(silhouettes.source, np.int32(-1))[number]
         edge = np.where(source >= 0, source, edge).astype(np.int32)
         own, bulge = silhouettes.curves, np.zeros(len(silhouettes.curves.kind))
+    met = image.intersections
+    if met is not None:
+        of_edge = np.full(len(image.edges), -1, np.int32)
+        of_edge[image.chains.edges] = np.repeat(image.chains.curve, np.diff(image.chains.offsets))
+        which = of_edge[chains.first]
+        number = np.where(which >= 0, which + len(own.kind), number).astype(np.int32)
+        own = concatenate_curves(own, met.curves)
+        bulge = np.concatenate([bulge, met.rise * image.placement.per_model])
     if plan.every_curve and edge_curves is not None:
         edge_curves(part[straight], edge[straight])
     # Two planes meet in the straight line between the vertices: there is no curve to look up.

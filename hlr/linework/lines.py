@@ -67,6 +67,7 @@ def draw_lines(
             contact=t.contact,
         ),
         hidden,
+        image.true_points(),
     )
     if len(cut) == 0:
         return Linework((), (0.0, 0.0), 0)

@@ -14,11 +14,12 @@ from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
 from hlr.scene.chains import crease_chains, merge_chains
-from hlr.scene.clash import find_clashes, intersection_chains, mark_unsound, no_clashes, self_intersecting_parts
+from hlr.scene.clash import find_clashes, mark_unsound, no_clashes, self_intersecting_parts
 from hlr.scene.creases import creases
 from hlr.scene.defects import defect_notes, part_reports
 from hlr.scene.duplicates import without_duplicates
 from hlr.scene.groups import add_wires, groups_of
+from hlr.scene.intersection_lines import intersection_lines
 from hlr.scene.needles import reliable_normals
 from hlr.scene.scene import Chains, Scene, TrueSurfaces
 from hlr.scene.spindle_tori import self_intersecting_tori
@@ -62,6 +63,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
     else:
         met = no_clashes(len(groups.closed))
     plan.spent("intersection search", perf_counter() - begin, clash_tests=met.tests)
+    true, intersections = _true_surfaces(whole, found), None
     parts = part_reports(whole, doubled, found.reports, drawn, self_intersecting_parts(met, group_part))
     groups = mark_unsound(groups, met.through | found.welded)
 
@@ -75,7 +77,8 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
     if len(met.edges):
         lines = met.edges + np.int32(len(points))
         points = np.concatenate([points, met.points])
-        chains = merge_chains(chains, intersection_chains(met, group_part, len(edges)))
+        crossed, intersections = intersection_lines(met, found, tables, true, len(edges), deflection)
+        chains = merge_chains(chains, crossed)
         pair = met.group[:, 0].astype(np.int64) << 32 | met.group[:, 1]
         groups, own_group = add_wires(groups, points, lines, pair, tight=True)
         edges, edge_part = (
@@ -106,9 +109,10 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         chains=chains,
         parts=parts,
         notes=(*meshed.notes, *defect_notes(parts)),
-        true_surfaces=_true_surfaces(whole, found),
+        true_surfaces=true,
         convex=len(found.folded) == 1 and not found.folded[0],
         facets=facets,
+        intersections=intersections,
     )
 
 
@@ -168,6 +172,7 @@ def _source_chains(found: MeshScene) -> Chains:
         other=none,
         face=none,
         straight=found.walk_straight,
+        curve=none,
     )
 
 

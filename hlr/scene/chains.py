@@ -43,6 +43,7 @@ def crease_chains(points: Floats, edges: Ints, kind: npt.NDArray[np.uint8], part
         other=np.full(len(head), -1, np.int32),
         face=np.full(len(head), -1, np.int32),
         straight=np.zeros(len(head), bool),
+        curve=np.full(len(head), -1, np.int32),
     )
 
 
@@ -65,4 +66,5 @@ def merge_chains(a: Chains, b: Chains) -> Chains:
         other=np.concatenate([a.other, b.other])[order],
         face=np.concatenate([a.face, b.face])[order],
         straight=np.concatenate([a.straight, b.straight])[order],
+        curve=np.concatenate([a.curve, b.curve])[order],
     )

@@ -19,15 +19,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from hlr import _kernel
 from hlr._kernel import MeshScene
 from hlr.common.distinct import distinct
 from hlr.common.types import Floats, Ints
 from hlr.request.accuracy import CONTACT, CONTACT_PLANAR
-from hlr.scene.chains import STRAIGHT_ON
 from hlr.scene.groups import contact_depths
-from hlr.scene.scene import Chains, Groups
-from hlr.tables.line_classes import EdgeClass
+from hlr.scene.scene import Groups
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,12 +34,14 @@ class Clashes:
     points   (n, 3)
     edges    (m, 2) into points
     group    (m, 2) the two groups of each edge, the lower first
+    triangle (m, 2) a triangle of each of these groups that the edge lies on
     through  (g,) bool: the group intersects itself
     """
 
     points: Floats
     edges: Ints
     group: Ints
+    triangle: Ints
     through: npt.NDArray[np.bool_]
     tests: int = 0
     """Pairs of triangles that were tested."""
@@ -51,36 +50,13 @@ class Clashes:
 def no_clashes(groups: int) -> Clashes:
     """The result without intersections. groups: their number."""
     none = np.zeros((0, 2), np.int32)
-    return Clashes(np.zeros((0, 3)), none, none, np.zeros(groups, bool))
+    return Clashes(np.zeros((0, 3)), none, none, none, np.zeros(groups, bool))
 
 
 def find_clashes(found: MeshScene, groups: Groups, deflection: float) -> Clashes:
     """All intersections between groups, and of groups with themselves. deflection: model units."""
     touch = contact_depths(groups, CONTACT * deflection, CONTACT_PLANAR * deflection)
-    points, edges, group, through, tests = found.crossings(touch, deflection)
-    return Clashes(points, edges, group, through, tests)
-
-
-def intersection_chains(met: Clashes, part_of_group: Ints, first: int) -> Chains:
-    """Intersection lines: the segments chained per pair of groups. first: number of the first segment in the scene.
-
-    Where two lines cross, as for two cylinders of one radius, each goes straight on.
-    """
-    group = met.group
-    _, key = np.unique(group[:, 0].astype(np.int64) << 32 | group[:, 1], return_inverse=True)
-    offsets, order, backward = _kernel.chain(met.edges, key.ravel().astype(np.int32), met.points, STRAIGHT_ON)
-    parts = np.sort(part_of_group[group[order[offsets[:-1]]]], axis=1)
-    return Chains(
-        offsets=offsets,
-        edges=order + np.int32(first),
-        reversed=backward,
-        kind=np.full(len(parts), EdgeClass.INTERSECTION, np.uint8),
-        part=np.ascontiguousarray(parts[:, 0]),
-        index=np.full(len(parts), -1, np.int32),
-        other=np.ascontiguousarray(parts[:, 1]),
-        face=np.full(len(parts), -1, np.int32),
-        straight=np.zeros(len(parts), bool),
-    )
+    return Clashes(*found.crossings(touch, deflection))
 
 
 def self_intersecting_parts(met: Clashes, part_of_group: Ints) -> Ints:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.common.types import Color, Floats, Ints
 from hlr.drawing.notes import Note
-from hlr.source.model import Surfaces
+from hlr.source.model import Curves, Surfaces
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +88,7 @@ class Chains:
     other (c,) int32: of an intersection line the second part, else -1
     face (c,) int32: of an outline the face, in the part's TopExp face map, else -1
     straight (c,) bool: two planar faces meet there at an angle; two planes have a straight line in common
+    curve (c,) int32: of an intersection line its curve in `IntersectionCurves`, else -1
     """
 
     offsets: Ints
@@ -99,6 +100,20 @@ class Chains:
     other: Ints
     face: Ints
     straight: npt.NDArray[np.bool_]
+    curve: Ints
+
+
+@dataclass(frozen=True, slots=True)
+class IntersectionCurves:
+    """The true curves of n intersection lines.
+
+    rise (n,): how far each rises above the chords between its points, model units
+    points (k, 3): the first k points of the geometry, with those of intersection lines moved onto the true surfaces
+    """
+
+    curves: Curves
+    rise: Floats
+    points: Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,6 +144,7 @@ class Geometry:
     edge_kind (e,): an EdgeClass or INTERIOR; edge_curved (e,) bool: a curved surface may show its outline there.
     true_surfaces: None where no part has a B-rep.
     convex: everything is one convex body, as far as floating point tells.
+    intersections: None where no intersection line is curved.
     facets (t, 3): normals of bare meshes, zero where the coordinates are too coarse for one; None: all is B-rep.
     """
 
@@ -152,10 +168,18 @@ class Geometry:
     true_surfaces: TrueSurfaces | None = None
     convex: bool = False
     facets: Floats | None = None
+    intersections: IntersectionCurves | None = None
 
     def mesh(self) -> _kernel.Mesh:
         """Points, triangles and edges as the kernel takes them; the arrays are not copied."""
         return _kernel.Mesh(self.points, self.triangles, self.edges, self.offsets, self.incident)
+
+    def true_points(self) -> Floats | None:
+        """(n, 3) the points with those of intersection lines on the true surfaces; None where they are all the same."""
+        if self.intersections is None:
+            return None
+        known = self.intersections.points
+        return np.concatenate([known, self.points[len(known) :]])
 
     def all_faces(self) -> Ints:
         """(t,) the face of each triangle, numbered through all parts. Raises ValueError without true surfaces."""

@@ -244,7 +244,7 @@ def _walks(d: str) -> Iterator[Floats]:
 def _arc_numbers(text: str) -> list[float]:
     """Radii, turn, two flags of one digit that need nothing between them, and the end; any number of arcs."""
     flags = r"[\s,]*([01])[\s,]*([01])[\s,]*"
-    three = rf"({NUMBER})[\s,]*({NUMBER})[\s,]+({NUMBER})"
+    three = rf"({NUMBER})[\s,]*({NUMBER})(?:[\s,]+|(?=-))({NUMBER})"
     found = re.findall(rf"[\s,]*{three}{flags}({NUMBER})[\s,]*({NUMBER})", text)
     return [float(n) for arc in found for n in arc]
 

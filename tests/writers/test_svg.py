@@ -166,14 +166,38 @@ def test_paths_run_through_the_points(polylines, accuracy):
         drawn, closed = found[i]
         if closed:
             drawn = np.vstack([drawn, drawn[:1]])
-        # Each asked point is drawn, in order, within a tenth of the accuracy, and nothing after the last.
+        # The path passes each asked point, in order, within a tenth of the accuracy; it has no other vertices.
         near = accuracy / 10 * 1.000001
         at = 0
         for point in asked:
-            while np.hypot(*(drawn[at] - point)) > near:
+            while from_segment(point, *drawn[[at, min(at + 1, len(drawn) - 1)]]) > near:
                 at += 1
                 assert at < len(drawn)
-        assert np.hypot(*(drawn[at:] - asked[-1]).T).max() <= near
+        assert np.hypot(*(drawn[[0, -1]] - asked[[0, -1]]).T).max() <= near
+        assert np.hypot(*np.moveaxis(drawn[:, None] - asked[None], 2, 0)).min(axis=1).max() <= near
+
+
+def from_segment(point, start, end):
+    way, arm = end - start, point - start
+    share = np.clip(arm @ way / (way @ way), 0, 1) if way.any() else 0.0
+    return np.hypot(*(arm - way * share))
+
+
+@pytest.mark.parametrize("turn", [0.0, 30.0])
+def test_points_of_one_straight_line_are_written_as_its_ends(turn):
+    way = np.array([np.cos(np.radians(turn)), np.sin(np.radians(turn))])
+    shares = np.array([0.0, 0.01, 0.3, 0.31, 2.0])[:, None]
+
+    def paths(points):
+        return [points_of(path.get("d"))[0] for path in tree(drawing([line(points)])).findall(".//s:path", NS)]
+
+    (straight,) = paths(shares * way)
+    assert len(straight) == 2
+    # One that bends by a thousandth of a millimetre, or runs back, keeps its points.
+    bent = shares * way
+    bent[2] += 1e-3 * way[::-1] * [-1, 1]
+    assert len(paths(bent)[0]) > 2
+    assert len(paths(shares[[0, 2, 1, 4]] * way)[0]) > 2
 
 
 def test_the_same_bytes_again():

@@ -45,6 +45,16 @@ pub const CONTACT_REAL: f64 = 0.03;
 /// from another lies on both.
 pub const CONTACT_POINT: f64 = 1e-3;
 
+// Intersection lines.
+
+/// Of the deflection, over the sine of the angle between two surfaces: how far the line of their meshes may be from the
+/// true one. Each mesh is off by one deflection.
+pub const INTERSECTION_MOVE: f64 = 4.0;
+/// Of the deflection: how far a point may be from a surface that it lies on.
+pub const INTERSECTION_MET: f64 = 1e-3;
+/// Of the deflection: how far the cubic pieces of an intersection line may be from it.
+pub const INTERSECTION_FIT: f64 = 0.02;
+
 // Outlines.
 
 /// Of the chord tolerance: the two ends of a fold shorter than this are one.
@@ -94,6 +104,8 @@ pub const JUNCTION_EDGE: f64 = 1.0;
 pub const JUNCTION_TOUCH: f64 = 0.2;
 /// Of the accuracy: how far along touching lines the change may move.
 pub const JUNCTION_ALONG: f64 = 30.0;
+/// Of the accuracy: a change this close to a point of an intersection line is where the line goes through the surface.
+pub const JUNCTION_PIERCED: f64 = 0.02;
 /// Of the accuracy: two curves this close have met.
 pub const JUNCTION_MET: f64 = 1e-4;
 
@@ -108,6 +120,11 @@ pub const COVER_CROSSING: f64 = 6.0;
 /// Of the width: for a hidden line the same multiple of the visible ink, which counts as at least this wide. With finer
 /// ink more would be cut out beside cusps, where contours end.
 pub const COVER_INK: f64 = 6.0;
+
+// Lines in files.
+
+/// Of the accuracy: points this close to a straight line are on it, but for rounding.
+pub const LINE_ROUNDED: f64 = 1e-6;
 
 // Arcs in files.
 

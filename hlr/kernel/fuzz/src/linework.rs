@@ -38,6 +38,7 @@ pub fn run(data: &[u8]) {
     let geometry = Geometry {
         camera: &case.camera,
         space: &case.space,
+        meshed: &case.space,
         edges: &case.edges,
         pieces: &case.pieces,
         piece_edge: &case.piece_edge,

@@ -2,6 +2,7 @@
 
 pub mod curves;
 pub mod fit;
+pub mod intersections;
 pub mod legible;
 pub mod lines;
 pub mod silhouette;

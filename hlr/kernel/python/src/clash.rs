@@ -58,9 +58,9 @@ pub fn clashes<'py>(
     Ok(out)
 }
 
-/// Intersection lines of a scene: points (n, 3), segments (m, 2) between them, the two groups (m, 2) of each segment;
-/// for every group whether it passes through itself; and the number of triangle pairs examined.
-pub type Crossings<'py> = (Rows<'py, f64>, Rows<'py, i32>, Rows<'py, i32>, Flat<'py, bool>, u64);
+/// Intersection lines of a scene: points (n, 3), segments (m, 2) between them, the two groups (m, 2) of each segment,
+/// and a triangle of each group (m, 2); for every group whether it passes through itself; and the number of triangle pairs examined.
+pub type Crossings<'py> = (Rows<'py, f64>, Rows<'py, i32>, Rows<'py, i32>, Rows<'py, i32>, Flat<'py, bool>, u64);
 
 /// touch: contact tolerance of every group of the scene, in model units.
 pub fn crossings<'py>(
@@ -78,6 +78,7 @@ pub fn crossings<'py>(
         table(py, found.points)?,
         table(py, found.segments)?,
         table(py, found.groups)?,
+        table(py, found.triangles)?,
         found.through.into_pyarray(py),
         found.tests,
     ))

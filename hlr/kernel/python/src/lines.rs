@@ -104,6 +104,7 @@ pub struct Cut {
 #[pymethods]
 impl Cut {
     #[new]
+    #[pyo3(signature = (camera, mesh, pieces, chains, rank, without_brep, tolerances, hidden, true_points = None))]
     #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
     fn new(
         py: Python<'_>,
@@ -115,12 +116,15 @@ impl Cut {
         without_brep: PyReadonlyArray1<'_, bool>,
         tolerances: &LineTolerances,
         hidden: bool,
+        true_points: Option<PyReadonlyArray2<'_, f64>>,
     ) -> PyResult<Cut> {
         caught(py, || {
             let (camera, chains) = (camera.0, &chains.0);
             let reading = mesh.reading(py)?;
             let all = reading.slices()?;
-            let (space, edges) = (all.points, all.edges);
+            let (meshed, edges) = (all.points, all.edges);
+            let space = true_points.as_ref().map(|p| rows(p, "true_points")).transpose()?.unwrap_or(meshed);
+            expect_len("true_points", space.len(), meshed.len())?;
             let (rank, without_brep) = (flat(&rank, "rank")?, flat(&without_brep, "without_brep")?);
             let (cutting, fit) = (tolerances.cut, tolerances.fit);
             expect_below("chains", chains.edges.iter().copied(), edges.len())?;
@@ -131,7 +135,7 @@ impl Cut {
                 .map(|c| Trait { rank: rank[c], without_brep: without_brep[c], noisy: chains.about[c].noisy })
                 .collect();
             let found = run(py, chains.edges.len(), |stopped| {
-                let geometry = Geometry { camera: &camera, space, edges, pieces: &pieces, piece_edge };
+                let geometry = Geometry { camera: &camera, space, meshed, edges, pieces: &pieces, piece_edge };
                 let mut found = cut(&geometry, chains, &traits, &cutting, stopped)?;
                 if !hidden {
                     found.keep_sighted(traits.len());

@@ -5,17 +5,15 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat as slice};
+use super::curve_columns::CurveColumns;
 use super::lines::Camera;
 use super::mesh_input::Mesh;
 use super::threads::run;
 use super::true_surfaces::TrueSurfaces;
 use super::view::{Flat, Rows, arrays, flat, rows};
-use hlr_brep::geometry::curve::Curve;
 use hlr_linework::silhouette::grazing::Grazing;
 use hlr_linework::silhouette::trace::{Silhouette, Traced, trace};
 use hlr_linework::silhouette::{FaceRecord, Model};
-
-const TURN: [f64; 2] = [0.0, std::f64::consts::TAU];
 
 /// Outlines: the curves on true surfaces along which they are seen edge-on. And borders of faces that are nearly
 /// edge-on.
@@ -62,10 +60,16 @@ pub fn silhouettes<'py>(
     };
     let Traced { silhouettes, grazing } = run(py, model.triangles.len(), |stopped| trace(&model, stopped))?
         .ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
-    Ok(Outlines { columns: Columns::of(&silhouettes), lines: silhouettes, grazing, traced })
+    Ok(Outlines {
+        columns: CurveColumns::of(silhouettes.iter().map(|s| s.curve.as_ref())),
+        lines: silhouettes,
+        grazing,
+        traced,
+    })
 }
 
-fn record(on: &TrueSurfaces, face: usize) -> FaceRecord {
+/// A face as the kernel takes it.
+pub(super) fn record(on: &TrueSurfaces, face: usize) -> FaceRecord {
     let m = &on.place[face];
     let row = |k: usize| [m[4 * k], m[4 * k + 1], m[4 * k + 2], m[4 * k + 3]];
     FaceRecord {
@@ -80,42 +84,16 @@ fn record(on: &TrueSurfaces, face: usize) -> FaceRecord {
 #[pyclass(frozen)]
 pub struct Outlines {
     pub(super) lines: Vec<Silhouette>,
-    columns: Columns,
+    columns: CurveColumns,
     pub(super) grazing: Vec<Grazing>,
     pub(super) traced: Vec<bool>,
 }
 
-/// Records of the curves.
-struct Columns {
-    curve_kind: Vec<u8>,
-    curve_range: Vec<[f64; 2]>,
-    curve_offsets: Vec<i32>,
-    curve_values: Vec<f64>,
-}
-
-impl Columns {
-    fn of(lines: &[Silhouette]) -> Columns {
-        let mut out = Columns {
-            curve_kind: Vec::new(),
-            curve_range: Vec::new(),
-            curve_offsets: vec![0],
-            curve_values: Vec::new(),
-        };
-        for line in lines {
-            let range = |c: &Curve| if let Curve::Spline(n) = c { n.domain().into() } else { TURN };
-            out.curve_range.push(line.curve.as_ref().map_or([0.0; 2], range));
-            out.curve_kind.push(line.curve.as_ref().map_or(0, |c| c.record(&mut out.curve_values)));
-            out.curve_offsets.push(out.curve_values.len() as i32);
-        }
-        out
-    }
-}
-
 arrays! { Outlines {
-    curve_kind: flat Flat<'py, u8> = |o| &o.columns.curve_kind;
-    curve_range: rows Rows<'py, f64> = |o| &o.columns.curve_range;
-    curve_offsets: flat Flat<'py, i32> = |o| &o.columns.curve_offsets;
-    curve_values: flat Flat<'py, f64> = |o| &o.columns.curve_values;
+    curve_kind: flat Flat<'py, u8> = |o| &o.columns.kind;
+    curve_range: rows Rows<'py, f64> = |o| &o.columns.range;
+    curve_offsets: flat Flat<'py, i32> = |o| &o.columns.offsets;
+    curve_values: flat Flat<'py, f64> = |o| &o.columns.values;
 }
 
     fn __len__(&self) -> usize {

@@ -2,13 +2,17 @@
 
 use super::arcs::{Rows, cubic_rows, rows};
 use super::strokes::{CONTROL, CUBIC, LINE, QUADRATIC, START};
-use crate::fit::plane::Vec2;
+use crate::fit::plane::{Vec2, dot, length, minus};
 use crate::lines::drawing::{Curve, Line};
+use hlr_accuracy::LINE_ROUNDED;
 
 /// Rows of one line. cubic: arcs and quadratic curves become cubic ones, for formats that have no others.
 pub fn rows_of(line: &Line, places: usize, accuracy: f64, cubic: bool) -> Rows {
     let mut out = Rows::default();
     match &line.curve {
+        None if straight(&line.flat, LINE_ROUNDED * accuracy) => {
+            chain(&[line.flat[0], line.flat[line.flat.len() - 1]], 1, LINE, places, &mut out);
+        }
         None => chain(&line.flat, 1, LINE, places, &mut out),
         Some(Curve::Arc(arc)) => {
             let (Some(a), Some(b)) = (line.flat.first(), line.flat.last()) else { return out };
@@ -19,6 +23,22 @@ pub fn rows_of(line: &Line, places: usize, accuracy: f64, cubic: bool) -> Rows {
         Some(Curve::Chain(c)) => chain(&c.points, 3, CUBIC, places, &mut out),
     }
     out
+}
+
+/// Whether the points lie in order on the line from the first to the last, as those of a circle seen edge-on do.
+fn straight(points: &[Vec2], most: f64) -> bool {
+    let [first, inner @ .., last] = points else { return false };
+    let way = minus(last, first);
+    let size = length(&way);
+    let mut before = 0.0;
+    size > 0.0
+        && inner.iter().all(|p| {
+            let arm = minus(p, first);
+            let (along, aside) = (dot(&arm, &way) / size, (arm[0] * way[1] - arm[1] * way[0]) / size);
+            let onward = along >= before && along <= size;
+            before = along;
+            onward && aside.abs() <= most
+        })
 }
 
 fn chain(points: &[Vec2], degree: usize, op: u8, places: usize, out: &mut Rows) {

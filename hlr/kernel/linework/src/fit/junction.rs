@@ -11,11 +11,11 @@
 
 use rayon::prelude::*;
 
-use super::Placed;
-use super::plane::{Vec2, length, minus, to_segment};
+use super::pierced::{Meeting, at_meeting};
+use super::plane::{length, minus, to_segment};
+use super::route::{Border, Change, Goal, Move, Route};
 use crate::lines::View;
 use hlr_accuracy::{JUNCTION_ALONG, JUNCTION_EDGE, JUNCTION_MET, JUNCTION_OUTLINE, JUNCTION_TOUCH};
-use hlr_brep::geometry::curve::Vec3;
 
 /// Sine of the angle below which two lines touch rather than cross.
 const GRAZING: f64 = 0.1;
@@ -23,97 +23,34 @@ const GRAZING: f64 = 0.1;
 const ALIKE: f64 = 1e-6;
 const STEPS: usize = 12;
 
-/// Whether a surface may end at a line in the image and hide lines that pass behind it. No surface ends at an
-/// intersection line or a smooth edge.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Border {
-    None,
-    Edge,
-    Outline,
-}
-
-/// A line with its curve, if it has one, and the curve's parameters at its points.
-pub struct Route<'a> {
-    pub chain: i32,
-    pub visible: bool,
-    pub border: Border,
-    pub flat: &'a [Vec2],
-    pub space: &'a [Vec3],
-    pub curve: Option<(&'a Placed, Vec<f64>)>,
-    /// How far its curve rises above the chords on which the change was found, in millimetres on paper.
-    pub bulge: f64,
-}
-
-impl Route<'_> {
-    fn parameter(&self, i: usize, s: f64) -> f64 {
-        match &self.curve {
-            Some((_, t)) => t[i] + (t[i + 1] - t[i]) * s,
-            None => i as f64 + s,
-        }
-    }
-
-    fn segment(&self, t: f64) -> (usize, f64) {
-        let i = t.floor().clamp(0.0, (self.flat.len() - 2) as f64) as usize;
-        (i, t - i as f64)
-    }
-
-    /// Point and derivative at t. A polyline is extended straight beyond its ends.
-    pub fn at(&self, t: f64) -> [Vec2; 2] {
-        if let Some((placed, _)) = &self.curve {
-            return placed.on_paper(t);
-        }
-        let (i, s) = self.segment(t);
-        let way = minus(&self.flat[i + 1], &self.flat[i]);
-        [[self.flat[i][0] + way[0] * s, self.flat[i][1] + way[1] * s], way]
-    }
-
-    /// The new end parameter t of a line that ended at `start`, limited to the ends of its curve; None if it is more
-    /// than half a turn of a closed curve away.
-    fn ending(&self, t: f64, start: f64) -> Option<f64> {
-        self.curve.as_ref().map_or(Some(t), |(placed, _)| placed.track.ending(start, t))
-    }
-
-    /// The point in space that `at` is the image of.
-    pub fn in_space(&self, t: f64, view: &View) -> Vec3 {
-        if let Some((placed, _)) = &self.curve {
-            return placed.curve.point(placed.track.wrapped(t));
-        }
-        let (i, s) = self.segment(t);
-        let (a, b) = (&self.space[i], &self.space[i + 1]);
-        let s = view.in_space(s, view.depth(a), view.depth(b));
-        [0, 1, 2].map(|k| a[k] + (b[k] - a[k]) * s)
-    }
-}
-
-/// An end that moves.
-#[derive(Clone, Copy, Debug)]
-pub struct Move {
-    pub line: usize,
-    /// 0 for the line's start, 1 for its end.
-    pub end: usize,
-    pub to: Goal,
-}
-
-#[derive(Clone, Copy, Debug)]
-pub enum Goal {
-    /// A parameter of the line's curve.
-    Parameter(f64),
-    /// For polylines: the one point, on paper and in space, to which all ends that meet there move.
-    Point(Vec2, Vec3),
-}
-
-/// A place where lines of one chain end: a visible and a hidden one, or an outline alone.
-struct Change {
-    at: Vec2,
-    /// Pairs (line, end).
-    ends: Vec<(usize, usize)>,
-}
-
 /// The ends that move: changes of visibility, and outlines that are extended. A line up to `contact` (model units)
-/// behind another may still hide it.
-pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> Vec<Move> {
-    let changes = changes(routes);
-    let near = near(routes, &changes, JUNCTION_OUTLINE * accuracy);
+/// behind another may still hide it. `meetings`: of intersection lines, sorted by their first coordinate; an end at one
+/// moves there.
+pub fn junctions(
+    routes: &[Route],
+    accuracy: f64,
+    contact: f64,
+    view: &View,
+    (meetings, beside): (&[Meeting], f64),
+) -> Vec<Move> {
+    let mut changes = changes(routes);
+    let mut out = Vec::new();
+    if !meetings.is_empty() {
+        changes.retain(|change| match at_meeting(routes, change, meetings, beside) {
+            Some(moves) => {
+                out.extend(moves);
+                false
+            }
+            None => true,
+        });
+    }
+    out.extend(covered(routes, &changes, accuracy, contact, view));
+    out
+}
+
+/// The changes at lines of surfaces that cover what goes on behind them.
+fn covered(routes: &[Route], changes: &[Change], accuracy: f64, contact: f64, view: &View) -> Vec<Move> {
+    let near = near(routes, changes, JUNCTION_OUTLINE * accuracy);
     near.par_chunk_by(|a, b| a.0 == b.0)
         .flat_map_iter(|group| {
             let Change { at, ends } = &changes[group[0].0];
@@ -293,7 +230,9 @@ fn within(route: &Route, u: f64, reach: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::plane::Vec2;
     use super::*;
+    use hlr_brep::geometry::curve::Vec3;
 
     fn straight<'a>(chain: i32, visible: bool, flat: &'a [Vec2], space: &'a [Vec3]) -> Route<'a> {
         Route { chain, visible, border: Border::Edge, flat, space, curve: None, bulge: 0.0 }
@@ -310,21 +249,21 @@ mod tests {
             straight(1, true, &wall, &[[0.0; 3]; 2]),
         ];
         let view = View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
-        let found = junctions(&routes, 0.05, 0.1, &view);
+        let found = junctions(&routes, 0.05, 0.1, &view, (&[], 0.0));
         assert_eq!(found.len(), 2);
         for step in found {
             let Goal::Point(flat, space) = step.to else { panic!() };
             assert!((flat[0] - 1.0).abs() < 1e-12 && space == deep[0]);
         }
         // Too far away, no border of a surface, farther from the viewer, or of the same edge: nothing moves.
-        assert!(junctions(&routes, 0.01, 0.1, &view).is_empty());
+        assert!(junctions(&routes, 0.01, 0.1, &view, (&[], 0.0)).is_empty());
         routes[2].border = Border::None;
-        assert!(junctions(&routes, 0.05, 0.1, &view).is_empty());
+        assert!(junctions(&routes, 0.05, 0.1, &view, (&[], 0.0)).is_empty());
         routes[2].border = Border::Edge;
         routes[2].space = &[[0.0, 0.0, 9.0]; 2];
-        assert!(junctions(&routes, 0.05, 0.1, &view).is_empty());
+        assert!(junctions(&routes, 0.05, 0.1, &view, (&[], 0.0)).is_empty());
         routes[2].space = &[[0.0; 3]; 2];
         routes[2].chain = 0;
-        assert!(junctions(&routes, 0.05, 0.1, &view).is_empty());
+        assert!(junctions(&routes, 0.05, 0.1, &view, (&[], 0.0)).is_empty());
     }
 }

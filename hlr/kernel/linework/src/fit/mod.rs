@@ -3,6 +3,7 @@
 //! 1. `locate`   the parameters of a line's vertices on its edge's curve in space, checked against the line
 //! 2. `project`  the curve on paper
 //! 3. `junction`  ends where another line hides this one, moved to the crossing of the two curves
+//!    `pierced`   ends where the line passes through a surface, moved to the end of the intersection line
 //! 4. `straight`, `arc`, `bezier`, `cubic`  the first of these that is exact, or within its share of the accuracy
 //! 5. `shared_end`  ends of one edge's lines that met before meet again, to the last bit
 //!
@@ -16,9 +17,11 @@ pub mod contour_fit;
 pub mod cubic;
 pub mod junction;
 pub mod locate;
+pub mod pierced;
 pub mod placed;
 pub mod plane;
 pub mod project;
+pub mod route;
 pub mod routes;
 pub mod shared_end;
 pub mod smooth;

@@ -3,12 +3,15 @@
 use rayon::prelude::*;
 
 use super::arc::grow;
-use super::junction::{Border, Goal, Move, Route, junctions};
+use super::junction::junctions;
+use super::pierced::Meeting;
 use super::plane::Vec2;
+use super::route::{Border, Goal, Move, Route};
 use super::shared_end::share_ends;
 use super::{Drawn, Form, Placed, located, piece};
 use crate::lines::Polyline;
 use crate::lines::camera::Camera;
+use hlr_accuracy::JUNCTION_PIERCED;
 use hlr_brep::geometry::curve::{Curve, Vec3};
 
 /// Curves in space, their parameter ranges, and their possible places: matrices into the model, row by row.
@@ -55,8 +58,15 @@ pub struct OnCurve {
     pub bounds: [Vec2; 2],
 }
 
-/// Each line on the curve of its guide.
-pub fn on_curves(lines: &[Polyline], guides: &[Guide], curves: &Curves, camera: &Camera, fit: &Fit) -> Vec<OnCurve> {
+/// Each line on the curve of its guide. `meetings`: of intersection lines, sorted by their first coordinate.
+pub fn on_curves(
+    lines: &[Polyline],
+    guides: &[Guide],
+    curves: &Curves,
+    camera: &Camera,
+    fit: &Fit,
+    meetings: &[Meeting],
+) -> Vec<OnCurve> {
     let (projection, view, accuracy) = (camera.projection(), camera.view(), fit.accuracy);
     let n = lines.len();
     // Lines along one curve in one place share its search table.
@@ -92,7 +102,8 @@ pub fn on_curves(lines: &[Polyline], guides: &[Guide], curves: &Curves, camera: 
             }
         })
         .collect();
-    let moves = junctions(&routes, accuracy, fit.contact, &view);
+    let beside = JUNCTION_PIERCED * accuracy / camera.scale;
+    let moves = junctions(&routes, accuracy, fit.contact, &view, (meetings, beside));
     // The ends of polylines that move. Ends of curves move with their interval.
     let mut moved: Vec<[Option<(Vec2, Vec3)>; 2]> = vec![[None; 2]; n];
     for Move { line, end, to } in moves {

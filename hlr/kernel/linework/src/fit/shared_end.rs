@@ -3,8 +3,8 @@
 
 use super::Drawn;
 use super::arc::grow;
-use super::junction::Route;
 use super::plane::{length, minus};
+use super::route::Route;
 use hlr_accuracy::CURVE_SHARED_END;
 
 /// Moves all ends that were one point to the first of them.
@@ -43,7 +43,7 @@ impl Drawn {
 #[cfg(test)]
 mod tests {
     use super::super::Form;
-    use super::super::junction::Border;
+    use super::super::route::Border;
     use super::*;
 
     #[test]

@@ -41,18 +41,17 @@ pub fn straight(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<[f64;
     if !points.iter().all(|p| off(p) <= CURVE_STRAIGHT * accuracy) {
         return None;
     }
-    // Extremes inside the piece are turning points, bracketed by the neighbouring samples and narrowed down.
+    // Extremes are turning points, bracketed by the neighbouring samples and narrowed down, or ends of the piece.
     let along = |t: f64| dot(&placed.on_paper(t)[0], &way);
     let refine = |i: usize, sign: f64| {
-        if i == 0 || i == places {
-            return t(i);
-        }
-        let (mut low, mut high) = (t(i - 1), t(i + 1));
+        let (mut low, mut high) = (t(i.max(1) - 1), t((i + 1).min(places)));
         for _ in 0..NARROWING {
             let (u, v) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
             if sign * along(u) < sign * along(v) { low = u } else { high = v }
         }
-        0.5 * (low + high)
+        let turning = 0.5 * (low + high);
+        let end = i == 0 || i == places;
+        if end && sign * along(turning) <= sign * along(t(i)) { t(i) } else { turning }
     };
     let (one, other) = (refine(one, 1.0), refine(other, -1.0));
     Some(if (one < other) == (range[0] < range[1]) { [one, other] } else { [other, one] })
@@ -60,4 +59,31 @@ pub fn straight(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<[f64;
 
 fn turning(placed: &Placed) -> bool {
     matches!(placed.paper, Paper::Ellipse { .. })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::project::Projection;
+    use super::*;
+    use hlr_brep::geometry::curve::Curve;
+    use std::f64::consts::{PI, TAU};
+
+    /// A circle of radius 8 in the plane of x and depth, seen along y.
+    fn edge_on() -> Placed {
+        let seen = Projection([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]);
+        let curve = Curve::Ellipse { p: [0.0; 3], a: [8.0, 0.0, 0.0], b: [0.0, 0.0, 8.0] };
+        Placed::new(curve, [0.0, TAU], &seen, 1e-9)
+    }
+
+    #[test]
+    fn a_circle_seen_edge_on_is_drawn_from_one_turning_point_to_the_other() {
+        let placed = edge_on();
+        for range in [[-0.04, PI + 0.04], [0.0, PI], [PI + 0.04, -0.04], [-0.2, TAU - 0.2]] {
+            let Some(ends) = straight(&placed, range, 0.05) else { panic!() };
+            let x = ends.map(|t| placed.on_paper(t)[0][0]);
+            assert!((x[0].abs() - 8.0).abs() < 1e-9 && (x[0] + x[1]).abs() < 1e-9, "{range:?}: {x:?}");
+        }
+        // An end that does not turn stays.
+        assert_eq!(straight(&placed, [0.5, 2.5], 0.05), Some([0.5, 2.5]));
+    }
 }

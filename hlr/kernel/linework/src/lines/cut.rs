@@ -12,6 +12,7 @@ use super::simplify::simplify;
 use super::specks::drop_specks;
 use super::{Polyline, View};
 use crate::fit::bezier::Chain;
+use crate::fit::pierced::Meeting;
 use crate::fit::smooth::smooth;
 
 /// Tolerances: in millimetres on paper, except `space`, in model units.
@@ -44,6 +45,8 @@ pub struct Trait {
 pub struct Cut {
     pub lines: Vec<Polyline>,
     pub smooth: Vec<Option<Chain>>,
+    /// Of intersection lines that were moved, sorted by their first coordinate.
+    pub meetings: Vec<Meeting>,
 }
 
 /// The lines of all chains; None if it was stopped.
@@ -93,7 +96,7 @@ pub fn cut(
             None
         })
         .collect();
-    Some(Cut { lines, smooth })
+    Some(Cut { lines, smooth, meetings: met.moved() })
 }
 
 /// A strict order of lines: visible before hidden, then by rank / 16, then nearer first, then by rank, then by

@@ -12,9 +12,11 @@ use crate::curves::arcs::Arc;
 use crate::fit::Form;
 use crate::fit::arc::grow;
 use crate::fit::bezier::Chain;
-use crate::fit::junction::Border;
-use crate::fit::plane::Vec2;
+use crate::fit::plane::{Vec2, dot, minus};
+use crate::fit::route::Border;
 use crate::fit::routes::{Curves, Fit, Guide, OnCurve, on_curves};
+use hlr_brep::geometry::curve::Curve as Spatial;
+use hlr_brep::geometry::nurbs::Nurbs;
 
 /// A line before it is moved and sorted: its points, its curve, and its bounding box.
 struct Made {
@@ -59,7 +61,7 @@ pub fn finish(
     let mut made: Vec<Made> = if plain {
         cut.lines.into_iter().map(|line| Made { bounds: around(&line), line, curve: None }).collect()
     } else {
-        let found = on_curves(&cut.lines, &own, curves, camera, fit);
+        let found = on_curves(&cut.lines, &own, curves, camera, fit, &cut.meetings);
         let made = cut.lines.into_par_iter().zip(cut.smooth).zip(&own).zip(found);
         made.map(|(((line, smooth), guide), found)| bent(line, smooth, guide, found, curves, camera, fit)).collect()
     };
@@ -100,7 +102,10 @@ fn bent(
     line.flat = line.flat.iter().enumerate().filter(|(i, _)| kept(*i)).map(|(_, p)| *p).collect();
     line.space = line.space.iter().enumerate().filter(|(i, _)| kept(*i)).map(|(_, p)| *p).collect();
     let mut bounds = found.bounds;
-    if guide.bulge > 0.0 && found.form.is_some() {
+    if found.form == Some(Form::Straight) {
+        flatten(&mut line);
+    }
+    if guide.bulge > 0.0 && found.form.as_ref().is_some_and(|form| *form != Form::Straight) {
         rise(&mut line, guide, found.range, curves, camera, fit);
     }
     let mut curve = found.form.and_then(|form| match form {
@@ -117,24 +122,62 @@ fn bent(
     Made { line, curve, bounds }
 }
 
-/// A circle rises above the chords on which it was found: its line gets points on the circle itself.
+/// Moves the points of a line that is straight on paper onto its chord. In space they stay where they are.
+fn flatten(line: &mut Polyline) {
+    let (first, last) = (line.flat[0], line.flat[line.flat.len() - 1]);
+    let way = minus(&last, &first);
+    let square = dot(&way, &way);
+    if square == 0.0 {
+        return;
+    }
+    let mut before = 0.0f64;
+    for p in &mut line.flat {
+        before = (dot(&minus(p, &first), &way) / square).clamp(before, 1.0);
+        *p = [0, 1].map(|k| first[k] + way[k] * before);
+    }
+    let end = line.flat.len() - 1;
+    line.flat[end] = last;
+}
+
+/// A curve rises above the chords on which it was found: its line gets points on the curve itself.
 fn rise(line: &mut Polyline, guide: &Guide, range: [f64; 2], curves: &Curves, camera: &Camera, fit: &Fit) {
     let Some(curve) = guide.curve.and_then(|c| curves.curves[c as usize].as_ref()) else { return };
-    let [low, high] = around(line);
-    let reach = (high[0] - low[0]).max(high[1] - low[1]);
-    // A circle rises r s^2 / 8 above the chord of a step s (radians). Perspective may double the length of a step.
-    let step = (8.0 * fit.chord * fit.accuracy / reach).sqrt() * if camera.eye.is_some() { 0.5 } else { 1.0 };
-    let [begin, end] = range;
-    let inner = ((end - begin).abs() / step).ceil() as usize;
+    let parameters = match curve {
+        Spatial::Spline(spline) => knots(spline, range),
+        _ => even(line, range, camera, fit),
+    };
     let last = line.flat.len() - 1;
     let (ends, space_ends) = ([line.flat[0], line.flat[last]], [line.space[0], line.space[last]]);
-    let t = |k: usize| begin + (end - begin) / (inner + 1) as f64 * k as f64;
-    line.space = (1..=inner).map(|k| curve.derivatives(t(k))[0]).collect();
+    line.space = parameters.into_iter().map(|t| curve.derivatives(t)[0]).collect();
     line.flat = line.space.iter().map(|p| camera.point(p)).collect();
     line.flat.insert(0, ends[0]);
     line.flat.push(ends[1]);
     line.space.insert(0, space_ends[0]);
     line.space.push(space_ends[1]);
+}
+
+/// The knots of a spline between the ends of a range, which may go beyond the seam of a closed one.
+fn knots(spline: &Nurbs, [begin, end]: [f64; 2]) -> Vec<f64> {
+    let (low, high) = spline.domain();
+    let turned = |turn: f64| spline.knots.iter().map(move |&t| (t + turn * (high - low), t));
+    let mut inside: Vec<(f64, f64)> = [-1.0, 0.0, 1.0].into_iter().flat_map(turned).collect();
+    inside.retain(|(t, _)| *t > begin.min(end) && *t < begin.max(end));
+    inside.sort_by(|a, b| a.0.total_cmp(&b.0));
+    inside.dedup_by_key(|(t, _)| *t);
+    if begin > end {
+        inside.reverse();
+    }
+    inside.into_iter().map(|(_, t)| t).collect()
+}
+
+/// Evenly spaced angles between the ends of a range.
+fn even(line: &Polyline, [begin, end]: [f64; 2], camera: &Camera, fit: &Fit) -> Vec<f64> {
+    let [low, high] = around(line);
+    let reach = (high[0] - low[0]).max(high[1] - low[1]);
+    // A circle rises r s^2 / 8 above the chord of a step s (radians). Perspective may double the length of a step.
+    let step = (8.0 * fit.chord * fit.accuracy / reach).sqrt() * if camera.eye.is_some() { 0.5 } else { 1.0 };
+    let inner = ((end - begin).abs() / step).ceil() as usize;
+    (1..=inner).map(|k| begin + (end - begin) / (inner + 1) as f64 * k as f64).collect()
 }
 
 /// The finished line, with `low` as origin.
@@ -159,5 +202,33 @@ fn line(made: Made, about: &[About], low: &Vec2) -> Line {
         flat,
         space: line.space,
         curve,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_knots_of_a_closed_spline_are_found_beyond_its_seam_and_backward() {
+        let poles = vec![[0.0, 0.0, 0.0, 1.0]; 7];
+        let knots = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 3.0, 3.0, 3.0, 3.0];
+        let spline = Nurbs { degree: 3, rational: false, sampled: true, knots, poles };
+        assert_eq!(super::knots(&spline, [0.5, 2.5]), [1.0, 2.0]);
+        assert_eq!(super::knots(&spline, [2.5, 0.5]), [2.0, 1.0]);
+        // From 2.5 over the seam at 3, which is 0, to 1.5: the seam, then 1.
+        assert_eq!(super::knots(&spline, [2.5, 4.5]).len(), 2);
+        assert_eq!(super::knots(&spline, [2.5, 4.5])[1], 1.0);
+        assert!(super::knots(&spline, [1.0, 2.0]).is_empty());
+    }
+
+    #[test]
+    fn points_of_a_line_that_is_straight_on_paper_lie_on_its_chord_in_order() {
+        let flat = vec![[0.0, 0.0], [-0.01, 0.001], [3.0, 0.002], [2.99, 0.0], [4.0, 0.0]];
+        let space = vec![[0.0; 3]; 5];
+        let mut line = Polyline { chain: 0, visible: true, flat, space: space.clone() };
+        flatten(&mut line);
+        assert_eq!(line.flat, [[0.0, 0.0], [0.0, 0.0], [3.0, 0.0], [3.0, 0.0], [4.0, 0.0]]);
+        assert_eq!(line.space, space);
     }
 }

@@ -11,6 +11,7 @@ use std::sync::OnceLock;
 use super::candidates::Chains;
 use super::drawing::Kind;
 use super::runs::Geometry;
+use crate::fit::pierced::Meeting;
 use hlr_brep::geometry::vector::{Vector, along, dot, length, sub};
 
 /// Segments of intersection lines, in model coordinates; sorted when they are first asked for.
@@ -42,11 +43,31 @@ impl<'a> Meetings<'a> {
         beside.into_iter().any(|s| distance(p, s) <= self.near)
     }
 
+    /// The points of intersection lines that are not where the meshes meet, sorted by their first coordinate there.
+    pub fn moved(&self) -> Vec<Meeting> {
+        let g = self.geometry;
+        let mut points: Vec<i32> = self.edges().flat_map(|e| g.edges[e as usize]).collect();
+        points.sort_unstable();
+        points.dedup();
+        points.retain(|&v| g.meshed[v as usize] != g.space[v as usize]);
+        let meeting = |&v: &i32| {
+            let (meshed, space) = (g.meshed[v as usize], g.space[v as usize]);
+            Meeting { meshed, space, flat: g.camera.point(&space) }
+        };
+        let mut out: Vec<Meeting> = points.iter().map(meeting).collect();
+        out.sort_by(|a, b| a.meshed[0].total_cmp(&b.meshed[0]));
+        out
+    }
+
+    fn edges(&self) -> impl Iterator<Item = i32> {
+        let met = (0..self.chains.about.len()).filter(|&c| self.chains.about[c].kind == Kind::INTERSECTION);
+        met.flat_map(|c| self.chains.of(c).0).copied()
+    }
+
     fn sort(&self) -> Sorted {
         let g = self.geometry;
-        let met = (0..self.chains.about.len()).filter(|&c| self.chains.about[c].kind == Kind::INTERSECTION);
         let mut segments: Vec<[Vector; 2]> =
-            met.flat_map(|c| self.chains.of(c).0).map(|&e| g.edges[e as usize].map(|v| g.space[v as usize])).collect();
+            self.edges().map(|e| g.edges[e as usize].map(|v| g.meshed[v as usize])).collect();
         segments.sort_by(|a, b| lower(a).total_cmp(&lower(b)));
         let widest = segments.iter().map(|[a, b]| (a[0] - b[0]).abs()).fold(0.0, f64::max);
         Sorted { segments, widest }
@@ -77,7 +98,8 @@ mod tests {
             Camera { direction: [0.0, 0.0, -1.0], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0], eye: None, scale: 1.0 };
         let space = [[0.0; 3], [10.0, 0.0, 0.0], [10.0, 5.0, 0.0], [-3.0, 0.0, 0.0]];
         let edges = [[1, 0], [1, 2], [0, 3]];
-        let geometry = Geometry { camera: &camera, space: &space, edges: &edges, pieces: &[], piece_edge: &[] };
+        let geometry =
+            Geometry { camera: &camera, space: &space, meshed: &space, edges: &edges, pieces: &[], piece_edge: &[] };
         let mut chains = Chains::new();
         let about = |kind| About { kind, part: 0, edge: -1, face: -1, other: -1, noisy: false, straight: false };
         chains.push(&[0, 1], &[true, false], about(Kind::INTERSECTION));

@@ -24,6 +24,8 @@ pub struct Geometry<'a> {
     pub camera: &'a Camera,
     /// Model coordinates.
     pub space: &'a [[f64; 3]],
+    /// The same before points moved onto true intersection lines: where visibility was decided.
+    pub meshed: &'a [[f64; 3]],
     pub edges: &'a [[i32; 2]],
     /// Sorted by edge, those of one edge along it; and the edge of each.
     pub pieces: &'a [Piece],

@@ -41,8 +41,14 @@ impl Ring {
         chains.push(&numbers, &vec![false; edges.len()], about);
         let traits = [Trait { rank: 0, without_brep: false, noisy: false }];
         let pieces: Vec<Piece> = (0..edges.len()).map(|e| Piece { start: 0.0, end: 1.0, state: state(e) }).collect();
-        let geometry =
-            Geometry { camera: &CAMERA, space: &self.space, edges: &edges, pieces: &pieces, piece_edge: &numbers };
+        let geometry = Geometry {
+            camera: &CAMERA,
+            space: &self.space,
+            meshed: &self.space,
+            edges: &edges,
+            pieces: &pieces,
+            piece_edge: &numbers,
+        };
         let tolerances = Tolerances {
             accuracy: ACCURACY,
             short: ACCURACY,

@@ -16,11 +16,13 @@ const BRIDGE: f64 = 4.0;
 /// from the tessellation, not from the shape: triangles around one point of a curved face cross one another.
 const SMALL: f64 = 2.0;
 
-/// A segment of an intersection line: the numbers of its end points, and of its groups, each with the lower first.
+/// A segment of an intersection line: the numbers of its end points, and of its groups, each with the lower first; and a
+/// triangle of each group that it lies on.
 #[derive(Clone, Copy, Debug)]
 pub struct Segment {
     pub ends: [i32; 2],
     pub groups: [usize; 2],
+    pub triangles: [u32; 2],
 }
 
 /// One distinct segment. Several pairs of triangles may meet along it, as where an edge lies in a plane.
@@ -69,7 +71,11 @@ fn candidates(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], depth: &[Dept
         let most = |of: &dyn Fn(usize) -> f64| same.iter().map(|&i| of(i)).fold(f64::NEG_INFINITY, f64::max);
         let first = same[0];
         Candidate {
-            segment: Segment { ends: ends[first], groups: bodies.groups(&found[first]) },
+            segment: Segment {
+                ends: ends[first],
+                groups: bodies.groups(&found[first]),
+                triangles: found[first].triangles,
+            },
             clash: found[first],
             depth: Depth {
                 touch: depth[first].touch,

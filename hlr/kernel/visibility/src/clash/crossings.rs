@@ -28,6 +28,8 @@ pub struct Crossings {
     pub segments: Vec<[i32; 2]>,
     /// The two groups of each segment.
     pub groups: Vec<[i32; 2]>,
+    /// A triangle of each group of each segment.
+    pub triangles: Vec<[i32; 2]>,
     /// Per group: it passes through itself.
     pub through: Vec<bool>,
     /// Pairs of triangles that were looked at.
@@ -94,6 +96,7 @@ pub fn crossings(
         points: used.iter().map(|&end| points[end as usize]).collect(),
         segments: real.iter().map(|segment| segment.ends.map(number)).collect(),
         groups: real.iter().map(|segment| segment.groups.map(|g| g as i32)).collect(),
+        triangles: real.iter().map(|segment| segment.triangles.map(|t| t as i32)).collect(),
         through,
         tests: met.clashes.tests,
     })

@@ -16,7 +16,8 @@ fn lines_within(states: &[State], limits: &Limits) -> Vec<(bool, f64, f64)> {
     let edges: Vec<[i32; 2]> = (0..n as i32).map(|i| [i, i + 1]).collect();
     let pieces: Vec<Piece> = states.iter().map(|&state| Piece { start: 0.0, end: 1.0, state }).collect();
     let ids: Vec<i32> = (0..n as i32).collect();
-    let g = Geometry { camera: &CAMERA, space: &space, edges: &edges, pieces: &pieces, piece_edge: &ids };
+    let g =
+        Geometry { camera: &CAMERA, space: &space, meshed: &space, edges: &edges, pieces: &pieces, piece_edge: &ids };
     let found = cut(&g, &ids, &vec![false; n], 0, limits, &|_| false);
     found.iter().map(|l| (l.visible, l.flat[0][0], l.flat[l.flat.len() - 1][0])).collect()
 }
@@ -35,7 +36,8 @@ fn around(edges: &[(State, f64)], first: usize, limits: &Limits) -> Vec<(bool, f
     let ends: Vec<[i32; 2]> = (0..n).map(|i| [of(i) as i32, of(i + 1) as i32]).collect();
     let pieces: Vec<Piece> = (0..n).map(|i| Piece { start: 0.0, end: 1.0, state: edges[of(i)].0 }).collect();
     let ids: Vec<i32> = (0..n as i32).collect();
-    let g = Geometry { camera: &CAMERA, space: &space, edges: &ends, pieces: &pieces, piece_edge: &ids };
+    let g =
+        Geometry { camera: &CAMERA, space: &space, meshed: &space, edges: &ends, pieces: &pieces, piece_edge: &ids };
     let place = |p: &[f64; 2]| ((if p[1] > 0.0 { total - p[0] } else { p[0] }) * 1e3).round() * 1e-3;
     let found = cut(&g, &ids, &vec![false; n], 0, limits, &|_| false);
     let mut lines: Vec<_> =
@@ -71,7 +73,8 @@ fn lines_around_a_closed_chain_do_not_depend_on_where_it_begins() {
 fn noise_is_a_few_edges_long_within_bounds() {
     let noise = |edge: f64| {
         let space = &[[0.0; 3], [edge, 0.0, 0.0], [edge, edge, 0.0]];
-        let g = Geometry { camera: &CAMERA, space, edges: &[[0, 1], [1, 2]], pieces: &[], piece_edge: &[] };
+        let g =
+            Geometry { camera: &CAMERA, space, meshed: space, edges: &[[0, 1], [1, 2]], pieces: &[], piece_edge: &[] };
         g.noise(&[0, 1], 0.5)
     };
     assert_eq!(noise(0.001), 0.5, "never less than what is too short anyway");
