@@ -117,7 +117,7 @@ def test_a_true_curve_is_cut_near_the_eye_as_elsewhere():
     bodies = pin_in_a_plate()
     near = drawn(bodies, "front", perspective=hlr.Perspective((12.0, -9.0, 7.0), (0.0, 4.0, 2.0), 80.0))
     found = intersections(near)
-    assert found
+    assert found and all(line.curve is not None for line in found)
     for line in found:
         assert np.abs(np.hypot(*line.points3.T[:2]) - 8).max() < 1e-6
 
