@@ -222,3 +222,19 @@ def test_boxes_of_curves_are_exact() -> None:
 def test_any_number_of_threads_draws_the_same() -> None:
     one, two = (render(hlr.draw(DATA / "as1-oc-214.stp", threads=n, **AT_SIZE), "svg") for n in (1, 3))
     assert one == two
+
+
+@pytest.mark.parametrize("name", ["M6-1x12-countersunk-screw.step", "nist_ctc_01_asme1_ap242-e1.stp", "as1-oc-214.stp"])
+def test_every_line_of_a_brep_has_its_curve(name):
+    """The screw's thread runs nine times around, in few spans: the next turn is nearer than the next sample of one."""
+    for drawing in hlr.draw_views(DATA / name, ["front", "top", "iso"]):
+        for line in drawing.lines:
+            if line.curve is None and line.kind != "intersection":
+                assert_straight(line.points, drawing.accuracy.used)
+
+
+def assert_straight(points, accuracy):
+    """In order on the line from the first to the last."""
+    way = (points[-1] - points[0]) / np.hypot(*(points[-1] - points[0]))
+    along, aside = ((points - points[0]) @ np.column_stack([way, way[::-1] * [-1, 1]])).T
+    assert np.abs(aside).max() < 1e-6 * accuracy and (np.diff(along) > -1e-6 * accuracy).all()

@@ -4,6 +4,11 @@ use hlr_brep::geometry::curve::{Curve, Vec3};
 
 /// Samples per span of a B-spline from which Newton's method may begin.
 const PLACES: usize = 8;
+/// Cosine of the angle by which the way from sample to sample may turn: one turn of a helix has twelve samples, nearer to
+/// one another than to the next turn.
+const TURN: f64 = 0.86;
+/// Rounds in which samples are added.
+const ROUNDS: usize = 6;
 const STEPS: usize = 20;
 
 /// The period of a curve, if it is closed, and points to begin a search from.
@@ -35,7 +40,8 @@ impl Track {
                     places.extend((0..count).map(|i| w[0] + (w[1] - w[0]) * (i as f64 / count as f64)));
                 }
                 places.push(range[1]);
-                let places = places.into_iter().map(|t| (t, curve.point(t))).collect();
+                let places: Vec<(f64, Vec3)> = places.into_iter().map(|t| (t, curve.point(t))).collect();
+                let places = if n.sampled { places } else { dense(places, curve) };
                 Track { period, bounded: Some(range), places }
             }
             _ => Track { period: None, bounded: None, places: Vec::new() },
@@ -157,6 +163,31 @@ impl Track {
     }
 }
 
+/// The samples, with further ones between them where the way turns sharply.
+fn dense(mut places: Vec<(f64, Vec3)>, curve: &Curve) -> Vec<(f64, Vec3)> {
+    for _ in 0..ROUNDS {
+        let ways: Vec<Vec3> = places.windows(2).map(|w| [0, 1, 2].map(|k| w[1].1[k] - w[0].1[k])).collect();
+        let turns = |i: usize, j: usize| {
+            let (a, b) = (&ways[i], &ways[j]);
+            dot3(a, b) < TURN * (dot3(a, a) * dot3(b, b)).sqrt()
+        };
+        let bent = |i: usize| (i > 0 && turns(i - 1, i)) || (i + 1 < ways.len() && turns(i, i + 1));
+        if !(0..ways.len()).any(bent) {
+            break;
+        }
+        let mut next = Vec::with_capacity(2 * places.len());
+        for (i, &place) in places.iter().enumerate() {
+            next.push(place);
+            if i < ways.len() && bent(i) {
+                let t = 0.5 * (place.0 + places[i + 1].0);
+                next.push((t, curve.point(t)));
+            }
+        }
+        places = next;
+    }
+    places
+}
+
 fn dot3(a: &Vec3, b: &Vec3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
@@ -164,4 +195,43 @@ fn dot3(a: &Vec3, b: &Vec3) -> f64 {
 fn distance(a: &Vec3, b: &Vec3) -> f64 {
     let d = [0, 1, 2].map(|k| a[k] - b[k]);
     dot3(&d, &d).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hlr_brep::geometry::nurbs::Nurbs;
+
+    /// Nine turns of a helix of radius 3 and pitch 1: cubic pieces of a quarter turn each.
+    fn helix() -> Curve {
+        let at = |t: f64| [3.0 * t.cos(), 3.0 * t.sin(), t / std::f64::consts::TAU];
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let arm = 4.0 / 3.0 * (0.25 * quarter).tan();
+        let (mut poles, mut knots) = (vec![at(0.0)], vec![0.0; 4]);
+        for k in 0..36 {
+            let (a, b) = (f64::from(k) * quarter, f64::from(k + 1) * quarter);
+            let way = |t: f64| [-3.0 * t.sin() * arm, 3.0 * t.cos() * arm, 0.25 / 3.0];
+            let (p, q, u, v) = (at(a), at(b), way(a), way(b));
+            poles.extend([[0, 1, 2].map(|i| p[i] + u[i]), [0, 1, 2].map(|i| q[i] - v[i]), q]);
+            knots.extend([f64::from(k + 1); 3]);
+        }
+        knots.push(36.0);
+        let poles = poles.into_iter().map(|[x, y, z]| [x, y, z, 1.0]).collect();
+        Curve::Spline(Nurbs { degree: 3, rational: false, sampled: false, knots, poles })
+    }
+
+    #[test]
+    fn samples_turn_by_little_from_one_to_the_next() {
+        let curve = helix();
+        // Four a turn: nearer to the next turn than to one another.
+        let few: Vec<(f64, Vec3)> = (0..=36).map(|k| (f64::from(k), curve.point(f64::from(k)))).collect();
+        let many = dense(few, &curve);
+        assert!((9 * 12..9 * 26).contains(&many.len()), "{}", many.len());
+        assert!(many.windows(2).all(|w| w[0].0 < w[1].0));
+        let track = Track { period: None, bounded: Some([0.0, 36.0]), places: many };
+        for k in 0..500 {
+            let t = 36.0 * f64::from(k) / 500.0;
+            assert!((track.nearest(&curve, &curve.point(t)) - t).abs() < 1e-6, "{t}");
+        }
+    }
 }
