@@ -3,8 +3,8 @@
 Each number is a part of CadQuery (a block, a turned part, a loft, a sweep, a shell, a plate with countersinks, two
 cylinders), with fillets and cuts, and a view: along an axis, nearly along one, a standard pictorial view, or any. It is
 drawn with hidden lines at 1:1 and measured as `--report` does. What breaks the promise is printed, class by class, in
-accuracies. An error of `outlines` may be that of the measure: its search can end beside the outline, above all in views
-along an axis.
+accuracies; a line that bends and has no curve is one of `polylines`. An error of `outlines` may be that of the measure:
+its search can end beside the outline, above all in views along an axis.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ import hlr
 from hlr.lab.measure import measured
 from hlr.source import open_source
 from support.at_size import AT_SIZE
+from support.true_curves import bends_without_curve
 
 CLASSES = ("edges", "outlines", "intersections", "changes", "lost")
 KINDS = ("block", "turned", "loft", "sweep", "shell", "plate", "cylinders")
@@ -143,6 +144,9 @@ def broken(found: Case, accuracy: float) -> dict[str, float]:
     reached = measured(opened, drawing)
     errors = {name: getattr(reached, name).worst or 0.0 for name in CLASSES}
     errors["labels"] = reached.labels.longest or 0.0
+    bent = [x for x in drawing.lines if x.kind != "intersection" and bends_without_curve(x, drawing.accuracy.used)]
+    if bent:
+        errors["polylines"] = math.inf
     # A search that settles a thousandth beside the accuracy has settled on it.
     return {name: round(error / accuracy, 2) for name, error in errors.items() if error > 1.01 * accuracy}
 

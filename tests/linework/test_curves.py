@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from hlr.drawing.curve import Arc, Bezier, arc_bounds, bezier_bounds, raised
 from hlr.drawing.saving import render
 from hlr.source import open_source
 from support.at_size import AT_SIZE
-from support.true_curves import DENSE, distance, measured, on_paper, samples, true_curves
+from support.true_curves import DENSE, bends_without_curve, distance, measured, on_paper, samples, true_curves
 
 cq = pytest.importorskip("cadquery")
 DATA = Path(__file__).parents[1] / "data"
@@ -228,13 +229,18 @@ def test_any_number_of_threads_draws_the_same() -> None:
 def test_every_line_of_a_brep_has_its_curve(name):
     """The screw's thread runs nine times around, in few spans: the next turn is nearer than the next sample of one."""
     for drawing in hlr.draw_views(DATA / name, ["front", "top", "iso"]):
-        for line in drawing.lines:
-            if line.curve is None and line.kind != "intersection":
-                assert_straight(line.points, drawing.accuracy.used)
+        found = [line for line in drawing.lines if bends_without_curve(line, drawing.accuracy.used)]
+        assert [line for line in found if line.kind != "intersection"] == []
 
 
-def assert_straight(points, accuracy):
-    """In order on the line from the first to the last."""
-    way = (points[-1] - points[0]) / np.hypot(*(points[-1] - points[0]))
-    along, aside = ((points - points[0]) @ np.column_stack([way, way[::-1] * [-1, 1]])).T
-    assert np.abs(aside).max() < 1e-6 * accuracy and (np.diff(along) > -1e-6 * accuracy).all()
+def test_a_polyline_is_told_from_a_straight_line():
+    (line, *_) = hlr.draw(cq.Workplane().box(3, 4, 5), "front", **AT_SIZE).lines
+    assert not bends_without_curve(line, 0.05)
+    start, end = line.points[[0, -1]]
+    for inner, bent in (
+        (start + 0.3 * (end - start), False),
+        (start + [0.1, 0.1], True),
+        (start - 0.1 * (end - start), True),
+    ):
+        points = np.stack([start, inner, end])
+        assert bends_without_curve(replace(line, points=points, points3=np.zeros((3, 3))), 0.05) == bent

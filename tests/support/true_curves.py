@@ -69,6 +69,19 @@ def samples(line: Line, count: int = DENSE // 10) -> np.ndarray:
     return evenly(line.curve, count if isinstance(line.curve, Arc) else max(count, 8 * bezier_pieces(line.curve)))
 
 
+def bends_without_curve(line: Line, accuracy: float) -> bool:
+    """Whether a line is a polyline: it has no curve, and its points are not in order on the line between its ends."""
+    if line.curve is not None:
+        return False
+    way = line.points[-1] - line.points[0]
+    size = float(np.hypot(*way))
+    if size == 0.0:
+        return True
+    arms = line.points - line.points[0]
+    along, aside = arms @ way / size, arms @ (way[::-1] * [-1, 1]) / size
+    return bool(np.abs(aside).max() > 1e-6 * accuracy or np.diff(along).min() < -1e-6 * accuracy)
+
+
 def distance(points: np.ndarray, path: np.ndarray) -> float:
     """Largest distance of points to a polyline."""
     a, way = path[:-1], np.diff(path, axis=0)

@@ -63,6 +63,9 @@ pub const OUTLINE_GAP: f64 = 0.5;
 pub const OUTLINE_CIRCLE: f64 = 1e-3;
 /// Of the chord tolerance: the step over which tangents of outlines are differentiated.
 pub const OUTLINE_TANGENT_STEP: f64 = 0.05;
+/// Of the chord tolerance: chords that turn by 30 degrees along a circle are 15 times as long as they are off it; longer
+/// ones meet in a corner.
+pub const OUTLINE_CORNER: f64 = 20.0;
 /// Of the chord tolerance, of which an accuracy has ten: a wrinkle of a surface that rises by less is no outline.
 pub const OUTLINE_WRINKLE: f64 = 15.0;
 

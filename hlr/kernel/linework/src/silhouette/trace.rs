@@ -9,7 +9,7 @@ use super::curve::{Whole, circle, tangent, through, whole_circle};
 use super::face::Face;
 use super::grazing::Grazing;
 use super::refine::{Stretch, outward, rise, stretches};
-use super::split::{canonical, in_order, turns_back, unwound};
+use super::split::{canonical, corner, in_order, turns_back, unwound};
 use super::wrinkle::flatten;
 use hlr_accuracy::OUTLINE_GAP;
 use hlr_brep::geometry::curve::Curve;
@@ -259,7 +259,7 @@ fn walks(links: &[Link]) -> Vec<Vec<(usize, bool)>> {
     out
 }
 
-/// One walk cut where the face, the edge or the way of curving changes, and where its image turns back.
+/// One walk cut where the face, the edge or the way of curving changes, at corners, and where its image turns back.
 fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model) -> Vec<Silhouette> {
     let mut pieces: Vec<(i32, Stretch)> = Vec::new();
     for &(i, backward) in walk {
@@ -296,7 +296,8 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model) ->
         }
     }
     let key = |p: &(i32, Stretch)| (p.0, p.1.concave, p.1.source);
-    let goes_on = |a: &(i32, Stretch), b: &(i32, Stretch)| key(a) == key(b) && !turns_back(model, &a.1, &b.1);
+    let parts = |a: &Stretch, b: &Stretch| turns_back(model, a, b) || corner(model, a, b);
+    let goes_on = |a: &(i32, Stretch), b: &(i32, Stretch)| key(a) == key(b) && !parts(&a.1, &b.1);
     if closed && let Some(k) = (1..pieces.len()).find(|&k| !goes_on(&pieces[k - 1], &pieces[k])) {
         pieces.rotate_left(k);
     }
