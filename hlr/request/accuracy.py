@@ -6,6 +6,7 @@ Each source of error gets a share of the accuracy. The shares of an emitted line
     polyline                       0.625 tessellation + 0.25 vertices left out + 0.1 digits            0.975
     edge of a B-rep                0.05 curve fitting + 0.2 arcs in SVG + 0.1 digits                   0.35
     outline of a B-rep             0.125 chords + 0.05 curve fitting + 0.2 arcs in SVG + 0.1 digits    0.475
+    intersection line of B-reps    0.0125 cubics + 0.05 curve fitting + 0.2 arcs in SVG + 0.1 digits   0.3625
     contour of a mesh              0.5 vertices moved + 0.3 curve fitting + 0.1 digits                 0.9
     circle of a mesh               0.75 vertices off the circle + 0.2 arcs in SVG, digits included     0.95
     change of visibility, across   0.625 tessellation + 0.1 digits                                     0.725
@@ -164,6 +165,9 @@ FILL_STEP = 1.0
 CURVE_FIT = 0.05
 """Of the accuracy: how far a fitted curve may be from the true one."""
 
+INTERSECTION_FIT = 0.02
+"""Of the deflection: how far the cubic pieces of an intersection line may be from it."""
+
 ARC_FIT = 0.2
 """Of the accuracy: how far an SVG arc may be from the true one, its ends rounded."""
 
@@ -178,6 +182,12 @@ SHARES: Mapping[str, Mapping[str, float]] = {
     "edge of a B-rep": {"curve fitting": CURVE_FIT, "arcs in SVG": ARC_FIT, "digits": DIGITS},
     "outline of a B-rep": {
         "chords": OUTLINE_CHORD * TESSELLATION / REMESH,
+        "curve fitting": CURVE_FIT,
+        "arcs in SVG": ARC_FIT,
+        "digits": DIGITS,
+    },
+    "intersection line of B-reps": {
+        "cubics": INTERSECTION_FIT * TESSELLATION / REMESH,
         "curve fitting": CURVE_FIT,
         "arcs in SVG": ARC_FIT,
         "digits": DIGITS,

@@ -8,7 +8,7 @@ import pytest
 from hlr.request import accuracy
 
 KERNEL = Path(__file__).resolve().parents[2] / "hlr/kernel/accuracy/src/lib.rs"
-REPEATED = ("CURVE_FIT", "ARC_FIT", "CONTOUR_MOVE", "CONTOUR_FIT")
+REPEATED = ("CURVE_FIT", "INTERSECTION_FIT", "ARC_FIT", "CONTOUR_MOVE", "CONTOUR_FIT")
 """Shares of the kernel that the sums in Python need."""
 
 

@@ -50,7 +50,7 @@ pub const CONTACT_POINT: f64 = 1e-3;
 /// Of the deflection, over the sine of the angle between two surfaces: how far the line of their meshes may be from the
 /// true one. Each mesh is off by one deflection.
 pub const INTERSECTION_MOVE: f64 = 4.0;
-/// Of the deflection: how far a point may be from a surface that it lies on.
+/// Of the deflection: how far a point may be from a surface, or from an ellipse, that it lies on.
 pub const INTERSECTION_MET: f64 = 1e-3;
 /// Of the deflection: how far the cubic pieces of an intersection line may be from it.
 pub const INTERSECTION_FIT: f64 = 0.02;

@@ -1,7 +1,7 @@
 //! Circles and ellipses among intersection lines.
 
 use super::face::Face;
-use hlr_accuracy::OUTLINE_CIRCLE;
+use hlr_accuracy::INTERSECTION_MET;
 use hlr_brep::geometry::curve::Curve;
 use hlr_brep::geometry::surface::Surface;
 use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, scaled, sub};
@@ -13,13 +13,13 @@ const LARGE: f64 = 1e3;
 /// Sine of the angle to a cylinder's axis below which a plane cuts it along rulings.
 const ALONG_AXIS: f64 = 1e-3;
 
-/// The ellipse or circle that all points lie on, within a share of the chord tolerance, in the order of the points; None
+/// The ellipse or circle that all points lie on, within a share of the deflection, in the order of the points; None
 /// where there is none.
-pub fn conic(faces: [&Face; 2], points: &[Vector], chord: f64) -> Option<Curve> {
+pub fn conic(faces: [&Face; 2], points: &[Vector], deflection: f64) -> Option<Curve> {
     let [a, b] = faces;
     let found = plane_and_cylinder(a, b).or_else(|| plane_and_cylinder(b, a)).or_else(|| circle(points))?;
     let Curve::Ellipse { p: centre, a: major, b: minor } = &found else { return None };
-    let near = OUTLINE_CIRCLE * chord + ROUNDING * length(major).max(length(minor));
+    let near = INTERSECTION_MET * deflection + ROUNDING * length(major).max(length(minor));
     let up = cross(major, minor);
     let square = dot(&up, &up);
     let on = |p: &Vector| {
