@@ -127,14 +127,14 @@ fn a_plane_cuts_a_cylinder_in_an_ellipse_that_runs_with_the_line() {
 fn cylinders_that_cross_have_a_dense_spline_through_points_of_both() {
     // The line in which a cylinder of radius 2 goes into one of radius 3, whole.
     let at = |k: usize| {
-        let (y, z) = (2.0 * PI * (k % 16) as f64 / 16.0).sin_cos();
-        roughly(k % 16, [(9.0 - 4.0 * y * y).sqrt(), 2.0 * y, 2.0 * z])
+        let (y, z) = (2.0 * PI * (k % 8) as f64 / 8.0).sin_cos();
+        roughly(k % 8, [(9.0 - 4.0 * y * y).sqrt(), 2.0 * y, 2.0 * z])
     };
-    let line = Line { faces: [0, 1], points: (0..=16).map(at).collect() };
+    let line = Line { faces: [0, 1], points: (0..=8).map(at).collect() };
     let (points, curves) = found(vec![Some(upright(3.0)), Some(lying(2.0))], &[line]);
     let Some(Found { curve: Curve::Spline(spline), .. }) = &curves[0] else { panic!() };
     let off = |q: &Vector| (q[0].hypot(q[1]) - 3.0).abs().max((q[1].hypot(q[2]) - 2.0).abs());
-    assert!(points[0].iter().all(|q| off(q) < 1e-12) && points[0][0] == points[0][16]);
+    assert!(points[0].iter().all(|q| off(q) < 1e-12) && points[0][0] == points[0][8]);
     let (low, high) = spline.domain();
     let worst = (0..=999).map(|i| off(&spline.point(low + (high - low) * f64::from(i) / 999.0))).fold(0.0, f64::max);
     assert!(worst < 1.5 * hlr_accuracy::INTERSECTION_FIT * DEFLECTION, "{worst}");
@@ -187,6 +187,20 @@ fn of_near(cylinder: Surface, plane: Surface) -> bool {
 }
 
 #[test]
+fn a_line_farther_away_than_chord_errors_explain_has_no_curve() {
+    let plate = || surface([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], None);
+    let without = |off: f64| {
+        let at = |k: u32| {
+            let (y, x) = (0.3 * f64::from(k)).sin_cos();
+            [(3.0 + off) * x, (3.0 + off) * y, 0.0]
+        };
+        let points = (0..5).map(at).collect();
+        found(vec![Some(plate()), Some(upright(3.0))], &[Line { faces: [0, 1], points }]).1[0].is_none()
+    };
+    assert!(!without(2.0 * DEFLECTION) && without(6.0 * DEFLECTION));
+}
+
+#[test]
 fn a_point_that_steps_back_is_left_out() {
     let plate = surface([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], None);
     let at = |t: f64| [3.0 * t.cos(), 3.0 * t.sin(), 0.0];
@@ -209,4 +223,6 @@ fn where_cylinders_of_one_radius_touch_each_line_goes_straight_on() {
     let (points, curves) = found(vec![Some(upright(3.0)), Some(across)], &[line]);
     assert!(curves[0].is_some());
     assert!(points[0].iter().all(|p| (p[1] - p[2]).abs() < DEFLECTION && (p[0].hypot(p[1]) - 3.0).abs() < DEFLECTION));
+    // Where they touch no point is told, but the line passes there.
+    assert!(length(&sub(&points[0][9], &[-3.0, 0.0, 0.0])) < DEFLECTION);
 }
