@@ -63,7 +63,7 @@ pub fn curve(sheets: &Sheets, crossed: &Crossed, moved: &[Option<Vector>], i: us
     let curve = conic([&pair.faces[0], &pair.faces[1]], &all, pair.deflection).or_else(|| {
         let points: Vec<Vector> = dense.iter().map(|s| s.point).collect();
         let tangents: Vec<Option<Vector>> = dense.iter().map(|s| Some(s.tangent)).collect();
-        through(&points, &tangents).map(Curve::Spline)
+        through(&points, &tangents, &|_| false).map(Curve::Spline)
     })?;
     Some(Found { curve, rise, points: places(&spots, &kept)? })
 }

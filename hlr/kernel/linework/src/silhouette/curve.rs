@@ -5,13 +5,16 @@ use std::f64::consts::{PI, TAU};
 
 use super::TIE;
 use super::face::{Face, SeenCircle};
-use hlr_accuracy::{OUTLINE_CIRCLE, OUTLINE_TANGENT_STEP};
+use hlr_accuracy::{OUTLINE_CIRCLE, OUTLINE_CORNER, OUTLINE_TANGENT_STEP};
 use hlr_brep::geometry::curve::Curve;
 use hlr_brep::geometry::nurbs::Nurbs;
 use hlr_brep::geometry::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
 
 /// Cosine of the angle between a tangent and the chord to the next point; below this the tangent is not used.
 const ASTRAY: f64 = 0.3;
+
+/// Cosine of the angle by which a long chord turns into the next one at a corner: 30 degrees.
+const CORNER: f64 = 0.866;
 
 /// Points on a whole circle, at least.
 const FEWEST: f64 = 12.0;
@@ -85,8 +88,16 @@ pub fn whole_circle(face: &Face, points: &[Vector], normal: &Vector, chord: f64)
     Some(Whole { curve, points, normals })
 }
 
-/// Cubic pieces through the points, as a B-spline with a continuous tangent.
-pub fn through(points: &[Vector], tangents: &[Option<Vector>]) -> Option<Nurbs> {
+/// Whether the curve has a corner at an inner point, as where an outline runs into a degenerate triangle at the border of
+/// its face: a long chord turns sharply into the next one.
+pub fn corner(points: &[Vector], i: usize, chord: f64) -> bool {
+    let (p, q) = (sub(&points[i], &points[i - 1]), sub(&points[i + 1], &points[i]));
+    let (one, other) = (length(&p), length(&q));
+    one.max(other) > OUTLINE_CORNER * chord && dot(&p, &q) < CORNER * one * other
+}
+
+/// Cubic pieces through the points, as a B-spline with a continuous tangent but at corners, which are inner points.
+pub fn through(points: &[Vector], tangents: &[Option<Vector>], corner: &dyn Fn(usize) -> bool) -> Option<Nurbs> {
     let last = points.len() - 1;
     let closed = points[0] == points[last];
     let ways: Vec<Vector> = (0..=last)
@@ -113,8 +124,12 @@ pub fn through(points: &[Vector], tangents: &[Option<Vector>]) -> Option<Nurbs> 
         .collect();
     let mut knots = vec![0.0; 4];
     let mut poles = vec![points[0]];
+    let corners: Vec<bool> = (0..=last).map(|i| i > 0 && i < last && corner(i)).collect();
     for i in 0..last {
-        let (p, q, t, u) = (&points[i], &points[i + 1], &ways[i], &ways[i + 1]);
+        let (p, q) = (&points[i], &points[i + 1]);
+        // At a corner both pieces run along their own chords.
+        let way = |k: usize| if corners[k] { unit(&sub(q, p)).unwrap_or(ways[k]) } else { ways[k] };
+        let (t, u) = (&way(i), &way(i + 1));
         // Control points at the distance they have on a circular arc that turns as much.
         let half = (0.5 * (1.0 + dot(t, u).clamp(-0.5, 1.0))).sqrt();
         let span = 2.0 * length(&sub(q, p)) / (1.0 + half);
@@ -122,11 +137,15 @@ pub fn through(points: &[Vector], tangents: &[Option<Vector>]) -> Option<Nurbs> 
         poles.push(along(q, u, -span / 3.0));
         let end = knots[knots.len() - 1] + span;
         knots.extend([end; 2]);
+        if corners[i + 1] {
+            poles.push(*q);
+            knots.push(end);
+        }
     }
     poles.push(points[last]);
     let end = knots[knots.len() - 1];
     knots.extend([end; 2]);
-    let rising = knots[3..knots.len() - 3].chunks(2).all(|w| w.len() < 2 || w[0] <= w[1]) && end > 0.0;
+    let rising = knots.windows(2).all(|w| w[0] <= w[1]) && end > 0.0;
     let poles = poles.into_iter().map(|[x, y, z]| [x, y, z, 1.0]).collect();
     (rising && end.is_finite()).then_some(Nurbs { degree: 3, rational: false, sampled: true, knots, poles })
 }
@@ -141,7 +160,7 @@ mod tests {
         let (points, mut tangents): (Vec<Vector>, Vec<_>) = (0..=20).map(|i| at(f64::from(i) * 0.2)).unzip();
         // One tangent reversed, one unknown and one wrong: the others still decide the curve.
         tangents[3] = tangents[3].map(|t| scaled(&t, -1.0));
-        let Some(curve) = through(&points, &tangents) else { panic!() };
+        let Some(curve) = through(&points, &tangents, &|_| false) else { panic!() };
         let (low, high) = curve.domain();
         let curve = Curve::Spline(curve);
         let worst = (0..=500).map(|i| {
@@ -150,5 +169,28 @@ mod tests {
             length(&[x - cos, y - sin, 0.0])
         });
         assert!(worst.fold(0.0, f64::max) < 1e-5);
+    }
+
+    #[test]
+    fn a_curve_with_a_corner_keeps_to_both_sides_of_it() {
+        // A quarter of a circle of radius 1, then straight up out of its plane. Chords of 0.16 are long beyond 0.02.
+        let at = |k: u32| {
+            let (y, x) = (f64::from(k) * 0.157).sin_cos();
+            [x, y, 0.0]
+        };
+        let end = at(10);
+        let points: Vec<Vector> = (0..=10).map(at).chain([[end[0], end[1], 0.5]]).collect();
+        let found: Vec<usize> = (1..11).filter(|&i| corner(&points, i, 1e-3)).collect();
+        assert_eq!(found, [10]);
+        assert!(!corner(&points, 10, 0.1));
+        let Some(curve) = through(&points, &vec![None; 12], &|i| i == 10) else { panic!() };
+        let (low, high) = curve.domain();
+        let worst = (0..=500).map(|i| {
+            let [x, y, z] = curve.point(low + (high - low) * f64::from(i) / 500.0);
+            if z > 0.0 { length(&[x - end[0], y - end[1], 0.0]) } else { (x.hypot(y) - 1.0).abs() }
+        });
+        assert!(worst.fold(0.0, f64::max) < 5e-3);
+        // With a continuous tangent it would swing out beside the corner.
+        assert_eq!(curve.knots.len(), curve.poles.len() + 4);
     }
 }

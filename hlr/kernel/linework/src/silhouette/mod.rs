@@ -13,7 +13,7 @@
 //!    `grazing`  borders of faces that are seen nearly edge-on, and whether these faces hide them
 //! 3. `refine`   adds points on the surface between crossings until the chords are near enough; divides at cusps
 //! 4. `trace`    joins them into curves, divided where the face, the edge or the sign of the curvature changes,
-//!    `split`    at corners, and where the image of a curve would lie on itself
+//!    `split`    and where the image of a curve would lie on itself
 //! 5. `curve`    a circle where that is exact, else cubic pieces through the points with their tangents
 //! 6. `outlined` adds them to the `image` as edges, and `own_lines` where edges are compared with their own faces
 //! ```

@@ -4,13 +4,10 @@ use std::cmp::Ordering;
 
 use super::Model;
 use super::refine::Stretch;
-use hlr_accuracy::OUTLINE_CORNER;
 use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, sub};
 
 /// Cosine of the angle from straight back within which the image counts as turning back.
 const BACK: f64 = 0.7;
-/// Cosine of the angle by which a long stretch turns into the next one at a corner: 30 degrees.
-const CORNER: f64 = 0.866;
 /// Radians; a curve that closes after one turn stays whole.
 const TURN: f64 = std::f64::consts::TAU;
 const SLACK: f64 = 0.2;
@@ -20,13 +17,6 @@ pub fn turns_back(model: &Model, a: &Stretch, b: &Stretch) -> bool {
     let sight = model.sight(&b.from);
     let (p, q) = (image(a, &sight), image(b, &sight));
     dot(&p, &q) < -BACK * length(&p) * length(&q)
-}
-
-/// Whether two stretches meet in a corner, as where an outline ends in a degenerate triangle at its face's border.
-pub fn corner(model: &Model, a: &Stretch, b: &Stretch) -> bool {
-    let (p, q) = (sub(&a.to, &a.from), sub(&b.to, &b.from));
-    let (one, other) = (length(&p), length(&q));
-    one.max(other) > OUTLINE_CORNER * model.chord && dot(&p, &q) < CORNER * one * other
 }
 
 /// A curve whose image winds round more than once may lie on itself: it is cut after every turn.

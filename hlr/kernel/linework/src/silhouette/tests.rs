@@ -8,8 +8,6 @@ use hlr_brep::geometry::vector::{Vector, dot, length, sub};
 use hlr_mesh::topology::topology;
 
 use super::face::Face;
-use super::refine::Stretch;
-use super::split;
 use super::trace::{Traced, trace};
 use super::{FaceRecord, Model};
 use crate::lines::View;
@@ -154,27 +152,6 @@ fn a_sphere_bends_alike_everywhere_up_to_its_poles() {
         let at_pole = zone().seen(inward, |model| Face::new(model, 0).map(|face| face.radial([0.2, 0.25 * TAU])));
         assert_eq!(at_pole, Some(0.0));
     }
-}
-
-#[test]
-fn a_long_stretch_that_turns_sharply_ends_in_a_corner() {
-    // The chord tolerance is 0.01, so a stretch is long beyond 0.2.
-    let corner = |size: f64, degrees: f64| {
-        let (y, x) = degrees.to_radians().sin_cos();
-        let stretch = |from: Vector, to: Vector| Stretch {
-            from,
-            to,
-            normals: [[0.0, 1.0, 0.0]; 2],
-            uv: [None; 2],
-            source: -1,
-            concave: false,
-            rise: [0.0; 2],
-        };
-        let first = stretch([-0.02, 0.0, 0.0], [0.0; 3]);
-        let second = stretch([0.0; 3], [size * x, size * y, 0.0]);
-        cylinder().seen(false, |model| split::corner(model, &first, &second))
-    };
-    assert!(corner(0.25, 35.0) && !corner(0.25, 25.0) && !corner(0.15, 80.0));
 }
 
 #[test]

@@ -5,11 +5,11 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Model;
 use super::contour::{Contour, Crossing, Fold, Node, contour, values};
-use super::curve::{Whole, circle, tangent, through, whole_circle};
+use super::curve::{Whole, circle, corner, tangent, through, whole_circle};
 use super::face::Face;
 use super::grazing::Grazing;
 use super::refine::{Stretch, outward, rise, stretches};
-use super::split::{canonical, corner, in_order, turns_back, unwound};
+use super::split::{canonical, in_order, turns_back, unwound};
 use super::wrinkle::flatten;
 use hlr_accuracy::OUTLINE_GAP;
 use hlr_brep::geometry::curve::Curve;
@@ -259,7 +259,7 @@ fn walks(links: &[Link]) -> Vec<Vec<(usize, bool)>> {
     out
 }
 
-/// One walk cut where the face, the edge or the way of curving changes, at corners, and where its image turns back.
+/// One walk cut where the face, the edge or the way of curving changes, and where its image turns back.
 fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model) -> Vec<Silhouette> {
     let mut pieces: Vec<(i32, Stretch)> = Vec::new();
     for &(i, backward) in walk {
@@ -296,8 +296,7 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model) ->
         }
     }
     let key = |p: &(i32, Stretch)| (p.0, p.1.concave, p.1.source);
-    let parts = |a: &Stretch, b: &Stretch| turns_back(model, a, b) || corner(model, a, b);
-    let goes_on = |a: &(i32, Stretch), b: &(i32, Stretch)| key(a) == key(b) && !parts(&a.1, &b.1);
+    let goes_on = |a: &(i32, Stretch), b: &(i32, Stretch)| key(a) == key(b) && !turns_back(model, &a.1, &b.1);
     if closed && let Some(k) = (1..pieces.len()).find(|&k| !goes_on(&pieces[k - 1], &pieces[k])) {
         pieces.rotate_left(k);
     }
@@ -341,6 +340,7 @@ fn along_points(model: &Model, face: i32, points: &[Vector], uv: &[Option<[f64; 
     let round = face.as_ref().and_then(|face| circle(face, points, model.chord));
     round.or_else(|| {
         let along = |uv: &Option<[f64; 2]>| tangent(face.as_ref()?, (*uv)?, model.chord);
-        through(points, &uv.iter().map(along).collect::<Vec<_>>()).map(Curve::Spline)
+        let corner = |i: usize| corner(points, i, model.chord);
+        through(points, &uv.iter().map(along).collect::<Vec<_>>(), &corner).map(Curve::Spline)
     })
 }
