@@ -114,6 +114,21 @@ impl<A: Arithmetic> Cover<A> {
         [orient2d::<A>(&self.q, &self.r, v), orient2d::<A>(&self.r, &self.p, v), orient2d::<A>(&self.p, &self.q, v)]
     }
 
+    /// The same, or None where one of them is negative: `v` lies outside.
+    #[inline(always)]
+    pub fn sides_within(&self, v: &Point) -> Option<[A::Area; 3]> {
+        let one = orient2d::<A>(&self.q, &self.r, v);
+        if one < A::Area::ZERO {
+            return None;
+        }
+        let two = orient2d::<A>(&self.r, &self.p, v);
+        if two < A::Area::ZERO {
+            return None;
+        }
+        let three = orient2d::<A>(&self.p, &self.q, v);
+        (three >= A::Area::ZERO).then_some([one, two, three])
+    }
+
     /// (z of v - z of the triangle's plane there) * area: positive where the triangle's plane is in front.
     #[inline(always)]
     pub fn beneath(&self, v: &Point, sides: &[A::Area; 3]) -> A::Volume {

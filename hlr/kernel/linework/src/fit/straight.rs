@@ -15,6 +15,9 @@ pub fn straight(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<[f64;
     let (a, b) = (range[0].min(range[1]), range[0].max(range[1]));
     let places = PLACES.max(4 * placed.paper.spans(a, b)).max((2.0 * (b - a)) as usize * usize::from(turning(placed)));
     let t = |i: usize| range[0] + (range[1] - range[0]) * (i as f64 / places as f64);
+    if wide([0, places / 3, 2 * places / 3].map(|i| placed.on_paper(t(i))[0]), CURVE_STRAIGHT * accuracy) {
+        return None;
+    }
     let points: Vec<Vec2> = (0..=places).map(|i| placed.on_paper(t(i))[0]).collect();
     let far = |from: &Vec2| -> usize {
         let mut best = (0, -1.0);
@@ -55,6 +58,14 @@ pub fn straight(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<[f64;
     };
     let (one, other) = (refine(one, 1.0), refine(other, -1.0));
     Some(if (one < other) == (range[0] < range[1]) { [one, other] } else { [other, one] })
+}
+
+/// Whether no straight line passes all three points within a distance: if one does, the least height of their triangle
+/// is at most twice that. Most curves are known not to be straight by three of their points.
+fn wide([p, q, r]: [Vec2; 3], away: f64) -> bool {
+    let sides = [minus(&q, &p), minus(&r, &q), minus(&p, &r)];
+    let longest = sides.iter().map(length).fold(0.0, f64::max);
+    (sides[0][0] * sides[1][1] - sides[0][1] * sides[1][0]).abs() > 2.0 * away * longest
 }
 
 fn turning(placed: &Placed) -> bool {

@@ -1,27 +1,37 @@
 //! Counts how many polygons lie in front of each end point of a drawn edge: the seeds of the counts along the edges.
 //!
-//! Within one band the query points are sorted by x, and each polygon is compared with those between its left and right
-//! end in this band; depth is compared only where it covers the point. A point is queried once, however many edges end
-//! there: strict answers hold for all of them. Only ties (mostly the faces around the vertex itself) are decided per
-//! edge, by the direction in which it leaves.
+//! Within one band the query points are sorted into columns, and each polygon is compared with those between its left
+//! and right end in this band; depth is compared only where it covers the point. A point is queried once, however many
+//! edges end there: strict answers hold for all of them. Only ties (mostly the faces around the vertex itself) are
+//! decided per edge, by the direction in which it leaves.
 //!
 //! ```text
 //!   band ________________________________________________
-//!         |--- polygon 3 ---|        . asked point
-//!              |--------- polygon 7 -.------|
-//!   _________________________________.____________________
+//!         |--- polygon 3 ---|    :   . asked point
+//!      :       |--------- polygon 7 -.------|    :
+//!   ___:_________:_________:_________.____:______:________
 //! ```
 //!
-//! Only few corners of a fine mesh are query points: a coarse grid tells at once where none lies behind a polygon.
+//! Only few corners of a fine mesh are query points: most polygons meet only columns without any.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use super::bands::{Bands, clipped_x, y_range};
+use super::bands::{Bands, MOST_BANDS, clipped_x, y_range};
 use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
 use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
 use hlr_exact::predicates::Cover;
+
+/// Height of a band, and width of a column, in heights of an average polygon.
+const POLYGONS_A_BAND: f64 = 0.5;
+/// With more columns than this per query point, most would be empty.
+const COLUMNS_A_POINT: usize = 8;
+/// Polygons that one thread looks at in one go.
+const POLYGONS_AT_ONCE: usize = 1 << 12;
 
 /// Numbers of polygons in front of a drawn edge's end: at its place, and moved toward the viewer by the contact
 /// tolerance.
@@ -39,12 +49,6 @@ pub struct Seeds {
     pub asked: usize,
 }
 
-#[derive(Default)]
-struct Found {
-    strict: Vec<(u32, Count)>,
-    ties: Vec<(u32, u32)>,
-}
-
 impl Seeds {
     /// Counts for every end of the given edges.
     pub fn new<A: Arithmetic>(
@@ -54,50 +58,36 @@ impl Seeds {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Seeds {
         let mut slot = vec![u32::MAX; mesh.points.len()];
-        let mut asked: Vec<(u32, i32)> = Vec::new();
+        let mut asked: Vec<Stop> = Vec::new();
         for &e in edges {
             for v in mesh.edges[e as usize] {
                 if slot[v as usize] == u32::MAX {
                     slot[v as usize] = asked.len() as u32;
-                    asked.push((v as u32, mesh.edge_group[e as usize]));
+                    let (at, group) = (mesh.points[v as usize], mesh.edge_group[e as usize]);
+                    asked.push(Stop { at, slot: asked.len() as u32, group });
                 }
             }
         }
-        let places = Places::new(asked.iter().map(|&(v, _)| &mesh.points[v as usize]));
-        let counted: Vec<u32> = (0..mesh.triangles.len() as u32)
+        let stops = Stops::new(&asked, POLYGONS_A_BAND * table.mean_height(mesh));
+        // Sums do not depend on the order in which threads add to them.
+        let strict: Vec<AtomicU64> = asked.iter().map(|_| AtomicU64::new(0)).collect();
+        let chunks: Vec<usize> = (0..mesh.triangles.len()).step_by(POLYGONS_AT_ONCE).collect();
+        let ties: Vec<Vec<(u32, u32)>> = chunks
             .into_par_iter()
-            .with_min_len(1 << 10)
-            .filter(|&t| table.counted(mesh, t as usize) && places.any_behind(mesh.corners(t as usize)))
-            .collect();
-        let ranges: Vec<(i32, i32)> = counted
-            .par_iter()
-            .map(|&t| {
-                let (p, q, r) = mesh.corners(t as usize);
-                (p[1].min(q[1]).min(r[1]), p[1].max(q[1]).max(r[1]))
-            })
-            .collect();
-        let bands = Bands::choose(&ranges, 0.5);
-        let (offsets, items) = bands.bucket(&ranges);
-        let points: Vec<(i32, i32)> = asked
-            .iter()
-            .map(|&(v, _)| {
-                let y = mesh.points[v as usize][1];
-                (y, y)
-            })
-            .collect();
-        let (point_offsets, point_items) = bands.bucket(&points);
-        let found: Vec<Found> = (0..bands.count)
-            .into_par_iter()
-            .map(|k| {
-                let here = &point_items[point_offsets[k] as usize..point_offsets[k + 1] as usize];
-                let polygons = &items[offsets[k] as usize..offsets[k + 1] as usize];
-                if here.is_empty() || polygons.is_empty() || stopped() {
-                    return Found::default();
+            .map(|first| {
+                let mut ties = Vec::new();
+                if !stopped() {
+                    let chunk = first..(first + POLYGONS_AT_ONCE).min(mesh.triangles.len());
+                    for t in chunk.filter(|&t| table.counted(t)) {
+                        stops.count::<A>(mesh, t, &strict, &mut ties);
+                    }
                 }
-                sweep_band::<A>(mesh, &bands, k, here, &asked, polygons, &counted)
+                ties
             })
             .collect();
-        gather(slot, asked.len(), &found)
+        let strict = strict.into_iter().map(|both| unpacked(both.into_inner())).collect();
+        let (tie_offsets, ties) = by_slot(asked.len(), &ties);
+        Seeds { slot, strict, tie_offsets, ties, asked: asked.len() }
     }
 
     /// The count at the inward-moved end `here` of the drawn edge here -> there.
@@ -120,73 +110,6 @@ impl Seeds {
     }
 }
 
-fn sweep_band<A: Arithmetic>(
-    mesh: &Mesh,
-    bands: &Bands,
-    band: usize,
-    here: &[u32],
-    asked: &[(u32, i32)],
-    polygons: &[u32],
-    counted: &[u32],
-) -> Found {
-    let (y0, y1) = bands.limits(band);
-    let mut stops: Vec<Stop> = here.iter().map(|&slot| Stop::new(mesh, slot, asked[slot as usize])).collect();
-    stops.sort_unstable_by_key(|s| (s.at[0], s.slot));
-    let xs: Vec<i32> = stops.iter().map(|s| s.at[0]).collect();
-    let mut counts = vec![Count::default(); stops.len()];
-    let mut found = Found::default();
-    for &i in polygons {
-        let triangle = counted[i as usize];
-        let (p, q, r) = mesh.corners(triangle as usize);
-        let least = |k: usize| p[k].min(q[k]).min(r[k]);
-        let most = |k: usize| p[k].max(q[k]).max(r[k]);
-        let first = xs.partition_point(|&x| x < least(0));
-        if first == xs.len() || xs[first] > most(0) {
-            continue;
-        }
-        let (left, right) = within([p, q, r], y0, y1);
-        let first = first + xs[first..].partition_point(|&x| x < left);
-        let (ymin, ymax, zmin, zmax) = (least(1), most(1), least(2), most(2));
-        let mut cover = None;
-        for (stop, count) in stops[first..].iter().zip(&mut counts[first..]) {
-            let v = &stop.at;
-            if v[0] > right {
-                break;
-            }
-            if v[1] < ymin || v[1] > ymax || v[2] < zmin {
-                continue;
-            }
-            let Some(cover) = cover.get_or_insert_with(|| Cover::<A>::new(p, q, r)) else { break };
-            let sides = cover.sides(v);
-            let zero = A::Area::ZERO;
-            if sides[0] < zero || sides[1] < zero || sides[2] < zero {
-                continue;
-            }
-            if sides[0] == zero || sides[1] == zero || sides[2] == zero {
-                found.ties.push((stop.slot, triangle));
-                continue;
-            }
-            let delta = mesh.delta(stop.group, mesh.triangle_group[triangle as usize]);
-            if i64::from(zmax) + delta < i64::from(v[2]) {
-                count.plain += 1;
-                count.moved += 1;
-                continue;
-            }
-            let beneath = cover.beneath(v, &sides);
-            let shift = cover.shift(delta);
-            if beneath == A::Volume::ZERO || beneath == shift {
-                found.ties.push((stop.slot, triangle));
-                continue;
-            }
-            count.plain += i32::from(beneath > A::Volume::ZERO);
-            count.moved += i32::from(beneath > shift);
-        }
-    }
-    let strict = stops.iter().zip(counts).filter(|(_, count)| *count != Count::default());
-    found.strict.extend(strict.map(|(stop, count)| (stop.slot, count)));
-    found
-}
-
 /// x range of the part of a triangle between y0 and y1; conservative, never too small.
 fn within([p, q, r]: [&Point; 3], y0: i64, y1: i64) -> (i32, i32) {
     let (mut left, mut right) = (i32::MAX, i32::MIN);
@@ -201,133 +124,233 @@ fn within([p, q, r]: [&Point; 3], y0: i64, y1: i64) -> (i32, i32) {
     (left, right)
 }
 
-/// A query point in its band.
+/// Both counts in one number, so that one addition changes both.
+fn packed(plain: bool, moved: bool) -> u64 {
+    u64::from(plain) | u64::from(moved) << 32
+}
+
+fn unpacked(both: u64) -> Count {
+    Count { plain: both as u32 as i32, moved: (both >> 32) as i32 }
+}
+
+/// A query point.
+#[derive(Clone, Copy)]
 struct Stop {
     at: Point,
     slot: u32,
     group: i32,
 }
 
-impl Stop {
-    fn new(mesh: &Mesh, slot: u32, (vertex, group): (u32, i32)) -> Stop {
-        Stop { at: mesh.points[vertex as usize], slot, group }
-    }
-}
-
-/// A coarse grid of query points: per cell of the image the depth of the farthest.
-struct Places {
-    low: [i64; 2],
-    shift: u32,
+/// The query points by band, and in each band by column.
+struct Stops {
+    bands: Bands,
+    low: [i32; 2],
+    high: [i32; 2],
     columns: usize,
-    rows: usize,
-    farthest: Vec<i32>,
+    /// Where each column of each band begins in `stops`.
+    first: Vec<u32>,
+    stops: Vec<Stop>,
 }
 
-/// A polygon that covers more cells than this is not tested: it is large, and probably covers a query point.
-const MANY_CELLS: usize = 16;
-
-impl Places {
-    fn new<'p>(points: impl Iterator<Item = &'p Point> + Clone) -> Places {
-        let (mut low, mut high, mut count) = ([i64::MAX; 2], [i64::MIN; 2], 0usize);
-        for p in points.clone() {
-            count += 1;
-            for k in [0, 1] {
-                low[k] = low[k].min(i64::from(p[k]));
-                high[k] = high[k].max(i64::from(p[k]));
-            }
+impl Stops {
+    /// height: that bands should have, in grid units
+    fn new(asked: &[Stop], height: f64) -> Stops {
+        let (mut low, mut high) = ([i32::MAX; 2], [i32::MIN; 2]);
+        for k in [0, 1] {
+            low[k] = asked.iter().map(|s| s.at[k]).min().unwrap_or(0);
+            high[k] = asked.iter().map(|s| s.at[k]).max().unwrap_or(0);
         }
-        if count == 0 {
-            return Places { low: [0; 2], shift: 0, columns: 0, rows: 0, farthest: Vec::new() };
-        }
-        let size = [0, 1].map(|k| high[k] - low[k] + 1);
-        // Four cells per point, and at most a few million in all.
-        let wanted = (4.0 * count as f64).sqrt().clamp(1.0, 2048.0);
+        let size = [0, 1].map(|k| (i64::from(high[k]) - i64::from(low[k])) as usize);
+        let most = COLUMNS_A_POINT * asked.len() + 1;
         let mut shift = 0;
-        while (size[0].max(size[1]) >> shift) as f64 >= wanted {
+        while ((1i64 << shift) as f64) < height
+            || size[1] >> shift >= MOST_BANDS
+            || ((size[0] >> shift) + 1).saturating_mul((size[1] >> shift) + 1) > most
+        {
             shift += 1;
         }
-        let [columns, rows] = size.map(|s| (s >> shift) as usize + 1);
-        let mut farthest = vec![i32::MIN; columns * rows];
-        for p in points {
-            let [column, row] = [0, 1].map(|k| ((i64::from(p[k]) - low[k]) >> shift) as usize);
-            let cell = &mut farthest[row * columns + column];
-            *cell = p[2].max(*cell);
+        let bands = Bands { y0: i64::from(low[1]), shift, count: (size[1] >> shift) + 1 };
+        let mut out = Stops { bands, low, high, columns: (size[0] >> shift) + 1, first: Vec::new(), stops: Vec::new() };
+        let place = |s: &Stop| out.bands.of(s.at[1]) * out.columns + out.column(s.at[0]);
+        let places: Vec<u32> = asked.iter().map(|s| place(s) as u32).collect();
+        let mut first = vec![0u32; out.bands.count * out.columns + 1];
+        places.iter().for_each(|&p| first[p as usize + 1] += 1);
+        for k in 1..first.len() {
+            first[k] += first[k - 1];
         }
-        Places { low, shift, columns, rows, farthest }
+        let mut next = first.clone();
+        out.stops = asked.to_vec();
+        for (stop, &p) in asked.iter().zip(&places) {
+            out.stops[next[p as usize] as usize] = *stop;
+            next[p as usize] += 1;
+        }
+        out.first = first;
+        out
     }
 
-    /// Whether a query point in the triangle's box may lie behind its nearest corner. False only where that is certain.
-    #[inline]
-    fn any_behind(&self, (p, q, r): (&Point, &Point, &Point)) -> bool {
-        let cells = |k: usize, count: usize| {
-            let (least, most) = (p[k].min(q[k]).min(r[k]), p[k].max(q[k]).max(r[k]));
-            let from = ((i64::from(least) - self.low[k]) >> self.shift).max(0) as usize;
-            let to = (i64::from(most) - self.low[k]) >> self.shift;
-            from..((to + 1).max(0) as usize).min(count)
-        };
-        let (columns, rows) = (cells(0, self.columns), cells(1, self.rows));
-        if columns.is_empty() || rows.is_empty() {
-            return false;
+    fn column(&self, x: i32) -> usize {
+        let k = ((i64::from(x) - i64::from(self.low[0])) >> self.bands.shift).max(0) as usize;
+        k.min(self.columns - 1)
+    }
+
+    /// The query points of a band between two places; others may be among them.
+    fn between(&self, band: usize, left: i32, right: i32) -> &[Stop] {
+        let row = band * self.columns;
+        let (from, to) = (self.first[row + self.column(left)], self.first[row + self.column(right) + 1]);
+        &self.stops[from as usize..to as usize]
+    }
+
+    /// Adds one to the counts of the query points that a polygon lies in front of; names those where that is a tie.
+    #[inline(always)]
+    fn count<A: Arithmetic>(&self, mesh: &Mesh, triangle: usize, strict: &[AtomicU64], ties: &mut Vec<(u32, u32)>) {
+        let (p, q, r) = mesh.corners(triangle);
+        let least = [0, 1, 2].map(|k| p[k].min(q[k]).min(r[k]));
+        let most = [0, 1, 2].map(|k| p[k].max(q[k]).max(r[k]));
+        if (0..2).any(|k| most[k] < self.low[k] || least[k] > self.high[k]) {
+            return;
         }
-        let nearest = p[2].min(q[2]).min(r[2]);
-        columns.len() * rows.len() > MANY_CELLS
-            || rows.into_iter().any(|row| {
-                let line = &self.farthest[row * self.columns..(row + 1) * self.columns];
-                line[columns.clone()].iter().any(|&farthest| farthest >= nearest)
-            })
+        let bands: Range<usize> = self.bands.of(least[1])..self.bands.of(most[1]) + 1;
+        // A low polygon is as wide in all its bands, or nearly so.
+        let low = bands.len() <= 2;
+        let mut cover = None;
+        for band in bands {
+            let (left, right) = if low {
+                (least[0], most[0])
+            } else {
+                let (y0, y1) = self.bands.limits(band);
+                within([p, q, r], y0, y1)
+            };
+            if left > right {
+                continue;
+            }
+            for stop in self.between(band, left, right) {
+                let v = &stop.at;
+                if v[2] < least[2] || v[1] < least[1] || v[1] > most[1] || v[0] < least[0] || v[0] > most[0] {
+                    continue;
+                }
+                let Some(cover) = cover.get_or_insert_with(|| Cover::<A>::new(p, q, r)) else { return };
+                let Some(sides) = cover.sides_within(v) else { continue };
+                if sides.contains(&A::Area::ZERO) {
+                    ties.push((stop.slot, triangle as u32));
+                    continue;
+                }
+                let delta = mesh.delta(stop.group, mesh.triangle_group[triangle]);
+                let (plain, moved) = if i64::from(most[2]) + delta < i64::from(v[2]) {
+                    (true, true)
+                } else {
+                    let (beneath, shift) = (cover.beneath(v, &sides), cover.shift(delta));
+                    if beneath == A::Volume::ZERO || beneath == shift {
+                        ties.push((stop.slot, triangle as u32));
+                        continue;
+                    }
+                    (beneath > A::Volume::ZERO, beneath > shift)
+                };
+                if plain || moved {
+                    strict[stop.slot as usize].fetch_add(packed(plain, moved), Ordering::Relaxed);
+                }
+            }
+        }
     }
 }
 
-fn gather(slot: Vec<u32>, slots: usize, found: &[Found]) -> Seeds {
-    let mut strict = vec![Count::default(); slots];
-    let mut tie_offsets = vec![0u32; slots + 1];
-    for f in found {
-        for &(s, count) in &f.strict {
-            strict[s as usize] = count;
-        }
-        for &(s, _) in &f.ties {
-            tie_offsets[s as usize + 1] += 1;
-        }
+/// Counting sort of pairs of a slot and a polygon: where each slot's polygons begin, and the polygons.
+fn by_slot(slots: usize, found: &[Vec<(u32, u32)>]) -> (Vec<u32>, Vec<u32>) {
+    let mut offsets = vec![0u32; slots + 1];
+    for &(s, _) in found.iter().flatten() {
+        offsets[s as usize + 1] += 1;
     }
     for s in 0..slots {
-        tie_offsets[s + 1] += tie_offsets[s];
+        offsets[s + 1] += offsets[s];
     }
-    let mut next = tie_offsets.clone();
-    let mut ties = vec![0u32; tie_offsets[slots] as usize];
-    for f in found {
-        for &(s, t) in &f.ties {
-            ties[next[s as usize] as usize] = t;
-            next[s as usize] += 1;
-        }
+    let mut next = offsets.clone();
+    let mut out = vec![0u32; offsets[slots] as usize];
+    for &(s, t) in found.iter().flatten() {
+        out[next[s as usize] as usize] = t;
+        next[s as usize] += 1;
     }
-    Seeds { slot, strict, tie_offsets, ties, asked: slots }
+    (offsets, out)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::mesh::SnappedGroup;
     use super::*;
+    use hlr_exact::arithmetic::Exact;
+
+    const DELTA: i64 = 5;
+
+    /// What `Stops::count` finds, by comparing every polygon with every query point.
+    fn one_by_one(mesh: &Mesh, asked: &[Stop]) -> (Vec<Count>, Vec<(u32, u32)>) {
+        let (mut counts, mut ties) = (vec![Count::default(); asked.len()], Vec::new());
+        for t in 0..mesh.triangles.len() {
+            let Some(cover) = mesh.cover::<Exact>(t) else { continue };
+            let nearest = mesh.triangles[t].iter().map(|&v| mesh.points[v as usize][2]).min().unwrap();
+            for stop in asked.iter().filter(|stop| stop.at[2] >= nearest) {
+                let sides = cover.sides(&stop.at);
+                let (beneath, shift) = (cover.beneath(&stop.at, &sides), cover.shift(DELTA));
+                if sides.iter().any(|&side| side < 0) {
+                } else if sides.contains(&0) || beneath == 0 || beneath == shift {
+                    ties.push((stop.slot, t as u32));
+                } else {
+                    counts[stop.slot as usize].plain += i32::from(beneath > 0);
+                    counts[stop.slot as usize].moved += i32::from(beneath > shift);
+                }
+            }
+        }
+        ties.sort_unstable();
+        (counts, ties)
+    }
 
     #[test]
-    fn no_point_behind_a_triangle_is_overlooked() {
+    fn no_point_behind_a_polygon_is_overlooked() {
         let mut state = 1u64;
         let mut random = |n: i32| {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             ((state >> 33) as i32).rem_euclid(n)
         };
-        let mut none = 0;
-        for round in 0..400 {
-            let points: Vec<Point> = (0..round % 50).map(|_| [random(2000) - 900, random(900), random(99)]).collect();
-            let places = Places::new(points.iter());
-            let at = [random(4000) - 2000, random(3000) - 1500, random(99)];
-            let corner = |_| [at[0] + random(150), at[1] + random(150), at[2] + random(20)];
-            let [p, q, r] = [0, 1, 2].map(corner);
-            let inside =
-                |v: &Point| (0..2).all(|k| (p[k].min(q[k]).min(r[k])..=p[k].max(q[k]).max(r[k])).contains(&v[k]));
-            let behind = points.iter().any(|v| inside(v) && v[2] >= p[2].min(q[2]).min(r[2]));
-            let told = places.any_behind((&p, &q, &r));
-            assert!(told || !behind);
-            none += i32::from(!told);
+        let (mut behind, mut tied) = (0, 0);
+        for round in 0..300 {
+            let size = [3, 20, 400][round % 3];
+            let mut points = Vec::new();
+            for polygon in 0..40 {
+                // Some are seen at a right angle, so that points lie at exactly the tolerance behind them.
+                let depth = [1, 20][polygon % 2];
+                let at = [random(1200) - 600, random(600) - 100, random(99)];
+                points.extend([0; 3].map(|_| [at[0] + random(size), at[1] + random(size), at[2] + random(depth)]));
+            }
+            // Every third query point is a corner of a polygon.
+            let mut place = |slot: u32| match slot % 3 {
+                0 => points[random(120) as usize],
+                _ => [random(900) - 400, random(400), random(99)],
+            };
+            let asked: Vec<Stop> =
+                (0..round as u32 % 50).map(|slot| Stop { at: place(slot), slot, group: 0 }).collect();
+            let triangles: Vec<[i32; 3]> = (0..40).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+            let open = SnappedGroup { cull: false, sound: true, delta: DELTA, cap: DELTA, tight: false };
+            let mesh = Mesh {
+                points,
+                triangles: &triangles,
+                triangle_group: &[1; 40],
+                edges: &[],
+                offsets: &[0],
+                incident: &[],
+                edge_group: &[],
+                role: &[],
+                groups: vec![open; 2],
+            };
+            // Low bands, high ones, and one of all.
+            for height in [1.0, 30.0, 5000.0] {
+                let stops = Stops::new(&asked, height);
+                let strict: Vec<AtomicU64> = asked.iter().map(|_| AtomicU64::new(0)).collect();
+                let mut ties = Vec::new();
+                (0..40).for_each(|t| stops.count::<Exact>(&mesh, t, &strict, &mut ties));
+                ties.sort_unstable();
+                let counts: Vec<Count> = strict.into_iter().map(|both| unpacked(both.into_inner())).collect();
+                behind += counts.iter().map(|count| count.plain).sum::<i32>();
+                tied += ties.len();
+                assert_eq!((counts, ties), one_by_one(&mesh, &asked), "round {round}, bands of {height}");
+            }
         }
-        assert!(none > 200, "{none}");
+        assert!(behind > 1000 && tied > 30, "{behind} {tied}");
     }
 }

@@ -7,7 +7,7 @@
 use hlr_exact::Point;
 
 /// Most bands; more would gain nothing.
-const MOST_BANDS: usize = 4096;
+pub const MOST_BANDS: usize = 4096;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Bands {

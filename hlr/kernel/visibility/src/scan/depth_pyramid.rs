@@ -241,7 +241,7 @@ impl DepthPyramid {
 fn farthest(mesh: &Mesh, table: &PolygonTable) -> Vec<i32> {
     let mut out = vec![i32::MIN; mesh.groups.len()];
     for (t, &group) in mesh.triangle_group.iter().enumerate() {
-        if table.counted(mesh, t) {
+        if table.counted(t) {
             let (p, q, r) = mesh.corners(t);
             let depth = &mut out[group as usize];
             *depth = (*depth).max(p[2]).max(q[2]).max(r[2]);

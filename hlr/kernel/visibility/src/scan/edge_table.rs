@@ -1,5 +1,7 @@
 //! The edge table: contours with their jumps, the edges to be drawn, and those that culling alone decides.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::mesh::{DRAWN, Mesh, OUTLINE};
@@ -30,30 +32,47 @@ enum Fate {
     Drawn,
 }
 
+/// Edges that one thread looks at in one go.
+const EDGES_AT_ONCE: usize = 1 << 13;
+
 impl EdgeTable {
     pub fn new(mesh: &Mesh, table: &PolygonTable) -> EdgeTable {
-        let found: Vec<(i32, Fate)> = (0..mesh.edges.len())
+        let all: Vec<u32> = (0..mesh.edges.len() as u32).step_by(EDGES_AT_ONCE).collect();
+        let parts: Vec<EdgeTable> = all
             .into_par_iter()
-            .map(|e| {
-                let jump = jump(mesh, table, e);
-                (jump, fate(mesh, table, e, jump))
-            })
+            .map(|first| EdgeTable::of(mesh, table, first..(first + EDGES_AT_ONCE as u32).min(mesh.edges.len() as u32)))
             .collect();
+        EdgeTable {
+            contours: parts.iter().flat_map(|part| &part.contours).copied().collect(),
+            drawn: parts.iter().flat_map(|part| &part.drawn).copied().collect(),
+            hidden: parts.iter().flat_map(|part| &part.hidden).copied().collect(),
+            projecting: parts.iter().map(|part| part.projecting).sum(),
+        }
+    }
+
+    fn of(mesh: &Mesh, table: &PolygonTable, edges: Range<u32>) -> EdgeTable {
         let mut out = EdgeTable { contours: Vec::new(), drawn: Vec::new(), hidden: Vec::new(), projecting: 0 };
-        for (e, (jump, fate)) in found.iter().enumerate() {
-            let (a, b) = mesh.ends(e);
-            if *jump != 0 && (a[0] != b[0] || a[1] != b[1]) {
-                out.contours.push(Contour { edge: e as u32, jump: *jump });
+        for edge in edges {
+            let e = edge as usize;
+            let jump = jump(mesh, table, e);
+            if jump != 0 && !seen_end_on(mesh, e) {
+                out.contours.push(Contour { edge, jump });
             }
-            match fate {
+            match fate(mesh, table, e, jump) {
                 Fate::Ignored => {}
                 Fate::Projecting => out.projecting += 1,
-                Fate::Hidden => out.hidden.push(e as u32),
-                Fate::Drawn => out.drawn.push(e as u32),
+                Fate::Hidden => out.hidden.push(edge),
+                Fate::Drawn => out.drawn.push(edge),
             }
         }
         out
     }
+}
+
+/// Whether an edge is a point in the image.
+fn seen_end_on(mesh: &Mesh, edge: usize) -> bool {
+    let (a, b) = mesh.ends(edge);
+    a[0] == b[0] && a[1] == b[1]
 }
 
 /// Counted triangles on the left of lo -> hi minus those on its right.
@@ -62,12 +81,12 @@ fn jump(mesh: &Mesh, table: &PolygonTable, edge: usize) -> i32 {
     let mut sum = 0;
     for &t in mesh.incident(edge) {
         let t = t as usize;
-        if !table.counted(mesh, t) {
+        if !table.counted(t) {
             continue;
         }
         let [p, q, r] = mesh.triangles[t];
         let forward = (p == lo && q == hi) || (q == lo && r == hi) || (r == lo && p == hi);
-        sum += i32::from(table.facing[t]) * if forward { 1 } else { -1 };
+        sum += i32::from(table.facing(t)) * if forward { 1 } else { -1 };
     }
     sum
 }
@@ -80,7 +99,7 @@ fn beside_edge_on(mesh: &Mesh, table: &PolygonTable, edge: usize) -> bool {
         return false;
     };
     let (s, t) = (s as usize, t as usize);
-    table.almost[s] != table.almost[t] && table.facing[s] == table.facing[t]
+    table.almost_edge_on(s) != table.almost_edge_on(t) && table.facing(s) == table.facing(t)
 }
 
 fn fate(mesh: &Mesh, table: &PolygonTable, edge: usize, jump: i32) -> Fate {
@@ -88,8 +107,7 @@ fn fate(mesh: &Mesh, table: &PolygonTable, edge: usize, jump: i32) -> Fate {
     if role & DRAWN == 0 && (role & OUTLINE == 0 || (jump == 0 && !beside_edge_on(mesh, table, edge))) {
         return Fate::Ignored;
     }
-    let (a, b) = mesh.ends(edge);
-    if a[0] == b[0] && a[1] == b[1] {
+    if seen_end_on(mesh, edge) {
         return Fate::Projecting;
     }
     if mesh.groups[mesh.edge_group[edge] as usize].cull && table.turned_away(mesh, mesh.incident(edge)) {

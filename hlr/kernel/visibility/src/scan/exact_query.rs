@@ -41,7 +41,7 @@ impl<'a> ExactQuery<'a> {
 
     /// The boxes of those of these triangles that are counted.
     pub fn boxes(&self, triangles: impl IntoIterator<Item = u32>) -> Vec<(Aabb, u32)> {
-        let counted = triangles.into_iter().filter(|&t| self.table.counted(self.mesh, t as usize));
+        let counted = triangles.into_iter().filter(|&t| self.table.counted(t as usize));
         let boxed = |t: u32| {
             let (p, q, r) = self.mesh.corners(t as usize);
             (Aabb::of(&[p, q, r]), t)

@@ -45,7 +45,7 @@ pub fn piercings<A: Arithmetic>(
     drawn: &[u32],
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Piercings<A::Parameter> {
-    let boxes = part_boxes(mesh);
+    let boxes = group_boxes(mesh, table);
     let sought = sought_groups(mesh, &boxes);
     let searched = sought.iter().filter(|&&s| s).count();
     if searched == 0 {
@@ -179,7 +179,7 @@ fn reached(mesh: &Mesh, table: &PolygonTable, boxes: &[Aabb], sought: &[bool], l
         .with_min_len(1 << 12)
         .filter_map(|t| {
             let group = mesh.triangle_group[t as usize] as usize;
-            if !sought[group] || !table.counted(mesh, t as usize) {
+            if !sought[group] || !table.counted(t as usize) {
                 return None;
             }
             let (p, q, r) = mesh.corners(t as usize);
@@ -190,32 +190,14 @@ fn reached(mesh: &Mesh, table: &PolygonTable, boxes: &[Aabb], sought: &[bool], l
         .collect()
 }
 
-fn part_boxes(mesh: &Mesh) -> Vec<Aabb> {
-    let of = |triangles: &[[i32; 3]], groups: &[i32]| {
-        let mut boxes = vec![Aabb::EMPTY; mesh.groups.len()];
-        for (t, &group) in triangles.iter().zip(groups) {
-            let [p, q, r] = t.map(|v| &mesh.points[v as usize]);
-            let b = &mut boxes[group as usize];
-            *b = b.union(&Aabb::of(&[p, q, r]));
-        }
-        boxes
-    };
-    // One table per thread, if there are few groups.
-    let count = mesh.triangles.len();
-    let threads = if mesh.groups.len() < count / 64 { rayon::current_num_threads() } else { 1 };
-    let chunk = count.div_ceil(threads).max(1);
-    let tables: Vec<Vec<Aabb>> =
-        mesh.triangles.par_chunks(chunk).zip(mesh.triangle_group.par_chunks(chunk)).map(|(t, p)| of(t, p)).collect();
-    let mut boxes = vec![Aabb::EMPTY; mesh.groups.len()];
-    for table in tables {
-        boxes.iter_mut().zip(table).for_each(|(b, own)| *b = b.union(&own));
-    }
-    for (e, &group) in mesh.edge_group.iter().enumerate() {
-        if mesh.incident(e).is_empty() {
-            let (p, q) = mesh.ends(e);
-            let b = &mut boxes[group as usize];
-            *b = b.union(&Aabb::of(&[p, q]));
-        }
+/// Around the triangles of each group, and its edges without triangles.
+fn group_boxes(mesh: &Mesh, table: &PolygonTable) -> Vec<Aabb> {
+    let mut boxes = table.boxes.clone();
+    let bare = (0..mesh.edges.len()).into_par_iter().with_min_len(1 << 14).filter(|&e| mesh.incident(e).is_empty());
+    for e in bare.collect::<Vec<usize>>() {
+        let (p, q) = mesh.ends(e);
+        let b = &mut boxes[mesh.edge_group[e] as usize];
+        *b = b.union(&Aabb::of(&[p, q]));
     }
     boxes
 }

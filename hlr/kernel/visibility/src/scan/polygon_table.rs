@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::box_tree::Aabb;
 use super::mesh::Mesh;
 use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
@@ -14,37 +15,102 @@ const ALMOST: f64 = 2e-5;
 /// this, rounding the corners may have turned the triangle over.
 const NEEDLE: i128 = 2;
 
+const FRONT: u8 = 1;
+const BACK: u8 = 2;
+const ALMOST_EDGE_ON: u8 = 4;
+const COUNTED: u8 = 8;
+
+/// Triangles that one thread looks at in one go.
+const TRIANGLES_AT_ONCE: usize = 1 << 12;
+
 pub struct PolygonTable {
-    /// +1 toward the viewer, -1 away, 0 edge-on.
-    pub facing: Vec<i8>,
-    /// Edge-on except for rounding in its file, although `facing` is not 0.
-    pub almost: Vec<bool>,
+    /// Per triangle what is known of it, as bits: one byte is all that an edge reads of a triangle beside it.
+    bits: Vec<u8>,
     pub culled: usize,
+    /// Around all triangles of each group.
+    pub boxes: Vec<Aabb>,
 }
 
 impl PolygonTable {
     pub fn new<A: Arithmetic>(mesh: &Mesh) -> PolygonTable {
-        let (mut facing, mut almost): (Vec<i8>, Vec<bool>) = (Vec::new(), Vec::new());
-        (0..mesh.triangles.len())
-            .into_par_iter()
-            .map(|t| {
-                let (p, q, r) = mesh.corners(t);
-                let facing = orient2d::<A>(p, q, r).sign() as i8;
-                (facing, facing != 0 && almost_edge_on((p, q, r)))
+        let mut bits = vec![0u8; mesh.triangles.len()];
+        let found: Vec<(usize, Vec<(i32, Aabb)>)> = bits
+            .par_chunks_mut(TRIANGLES_AT_ONCE)
+            .enumerate()
+            .map(|(chunk, bits)| {
+                let (mut culled, mut boxes) = (0, Vec::new());
+                let mut around = (-1, Aabb::EMPTY);
+                for (t, bits) in (chunk * TRIANGLES_AT_ONCE..).zip(bits) {
+                    let (p, q, r) = mesh.corners(t);
+                    let group = mesh.triangle_group[t];
+                    // The triangles of a group stand together.
+                    if group != around.0 {
+                        boxes.push(around);
+                        around = (group, Aabb::EMPTY);
+                    }
+                    around.1 = around.1.union(&Aabb::of(&[p, q, r]));
+                    let facing = orient2d::<A>(p, q, r).sign();
+                    if facing == 0 {
+                        continue;
+                    }
+                    let cull = mesh.groups[group as usize].cull;
+                    *bits = if facing > 0 {
+                        FRONT | COUNTED
+                    } else if cull {
+                        BACK
+                    } else {
+                        BACK | COUNTED
+                    };
+                    culled += usize::from(facing < 0 && cull);
+                    if almost_edge_on((p, q, r)) {
+                        *bits |= ALMOST_EDGE_ON;
+                    }
+                }
+                boxes.push(around);
+                (culled, boxes)
             })
-            .unzip_into_vecs(&mut facing, &mut almost);
-        let culled = facing
-            .par_iter()
-            .zip(mesh.triangle_group)
-            .filter(|&(&f, &p)| f < 0 && mesh.groups[p as usize].cull)
-            .count();
-        PolygonTable { facing, almost, culled }
+            .collect();
+        let mut boxes = vec![Aabb::EMPTY; mesh.groups.len()];
+        for (group, own) in found.iter().flat_map(|f| &f.1).filter(|(group, _)| *group >= 0) {
+            let whole = &mut boxes[*group as usize];
+            *whole = whole.union(own);
+        }
+        PolygonTable { bits, culled: found.iter().map(|f| f.0).sum(), boxes }
+    }
+
+    /// Mean height in the image of counted triangles, in grid units, estimated from some of them.
+    pub fn mean_height(&self, mesh: &Mesh) -> f64 {
+        const EVERY: usize = 61;
+        let (mut count, mut sum) = (0u64, 0u64);
+        for t in (0..mesh.triangles.len()).step_by(EVERY).filter(|&t| self.counted(t)) {
+            let (p, q, r) = mesh.corners(t);
+            count += 1;
+            sum += u64::from(p[1].max(q[1]).max(r[1]).abs_diff(p[1].min(q[1]).min(r[1])));
+        }
+        sum as f64 / count.max(1) as f64
+    }
+
+    /// +1 toward the viewer, -1 away, 0 edge-on.
+    #[inline(always)]
+    pub fn facing(&self, triangle: usize) -> i8 {
+        facing(self.bits[triangle])
+    }
+
+    /// `facing` of all triangles.
+    pub fn all_facing(&self) -> Vec<i8> {
+        self.bits.par_iter().with_min_len(1 << 16).map(|&bits| facing(bits)).collect()
+    }
+
+    /// Edge-on except for rounding in its file, although `facing` is not 0.
+    #[inline(always)]
+    pub fn almost_edge_on(&self, triangle: usize) -> bool {
+        self.bits[triangle] & ALMOST_EDGE_ON != 0
     }
 
     /// Whether culling hides an edge of these triangles without any search: all are turned away, and none of them by
     /// rounding alone.
     pub fn turned_away(&self, mesh: &Mesh, triangles: &[i32]) -> bool {
-        let away = |&t: &i32| self.facing[t as usize] < 0 && !is_needle(mesh.corners(t as usize));
+        let away = |&t: &i32| self.facing(t as usize) < 0 && !is_needle(mesh.corners(t as usize));
         !triangles.is_empty() && triangles.iter().all(away)
     }
 
@@ -52,10 +118,14 @@ impl PolygonTable {
     /// that meets a closed solid from outside meets a face toward the viewer first, so the others add nothing to
     /// the question whether anything is in front.
     #[inline(always)]
-    pub fn counted(&self, mesh: &Mesh, triangle: usize) -> bool {
-        let f = self.facing[triangle];
-        f > 0 || (f < 0 && !mesh.groups[mesh.triangle_group[triangle] as usize].cull)
+    pub fn counted(&self, triangle: usize) -> bool {
+        self.bits[triangle] & COUNTED != 0
     }
+}
+
+#[inline(always)]
+fn facing(bits: u8) -> i8 {
+    (bits & FRONT) as i8 - ((bits & BACK) >> 1) as i8
 }
 
 /// Whether a triangle is hardly higher than a grid unit, as between corners in one line, so that rounding decides which
@@ -77,7 +147,7 @@ fn almost_edge_on((p, q, r): (&Point, &Point, &Point)) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{PolygonTable, is_needle};
+    use super::{BACK, PolygonTable, is_needle};
     use crate::scan::mesh::Mesh;
     use hlr_exact::Point;
 
@@ -104,7 +174,7 @@ mod tests {
             role: &[],
             groups: Vec::new(),
         };
-        PolygonTable { facing: vec![-1, -1], almost: vec![false; 2], culled: 2 }.turned_away(&mesh, &[0, 1])
+        PolygonTable { bits: vec![BACK; 2], culled: 2, boxes: Vec::new() }.turned_away(&mesh, &[0, 1])
     }
 
     #[test]

@@ -110,7 +110,7 @@ pub fn visibility_by<A: Arithmetic>(
         let differing = own.differing::<A>(mesh, &table, &exact, stopped);
         (pieces, counters.freed_of_own_faces) = own.applied::<A>(mesh, &table, &exact, &differing, pieces, stopped);
         seconds.own_faces = clock.lap();
-        return (!stopped()).then_some(Outcome { pieces, facing: table.facing, counters, seconds });
+        return (!stopped()).then_some(Outcome { pieces, facing: table.all_facing(), counters, seconds });
     }
     // A body wrongly taken for convex may also pass through itself.
     let piercing = steps.piercings || !steps.crossings;
@@ -170,7 +170,7 @@ pub fn visibility_by<A: Arithmetic>(
     if stopped() {
         return None;
     }
-    Some(Outcome { pieces, facing: table.facing, counters, seconds })
+    Some(Outcome { pieces, facing: table.all_facing(), counters, seconds })
 }
 
 struct Clock(Instant);
@@ -242,7 +242,7 @@ fn alone<A: Arithmetic>(
                     return out;
                 }
                 segments.clear();
-                if mesh.incident(edge as usize).iter().any(|&t| table.counted(mesh, t as usize)) {
+                if mesh.incident(edge as usize).iter().any(|&t| table.counted(t as usize)) {
                     segments.push(Segment { start: 0.0, end: 1.0, state: State::Visible });
                 } else if !exact.decide::<A>(edge as usize, &mut segments) {
                     out.contradictions += 1;
