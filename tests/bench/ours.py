@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from bench.triangulation import Triangulation
 
+from hlr.request.drawing_effects import DEEP_EDGES, DEEP_GROUPS
 from support.at_size import AT_SIZE
 
 DIRECTION = (1.0, -1.0, 1.0)
@@ -32,14 +33,14 @@ class Kernel:
 
         mesh = self._mesh
         start = time.perf_counter()
-        points = _view(mesh.points)
+        points = _camera().image(mesh.points)
         edges, offsets, incident = _kernel.edge_table(mesh.triangles, len(points))
         keys = edges[:, 0].astype(np.int64) * len(points) + edges[:, 1]
         role = np.full(len(edges), 2, np.uint8)
         # Both ascend, and few edges are drawn.
         place = np.searchsorted(keys, mesh.drawn)
         role[place[np.append(keys, -1)[place] == mesh.drawn]] = 1
-        edge_part = mesh.triangle_part[incident[offsets[:-1]]]
+        edge_part = mesh.triangle_part.take(incident.take(offsets[:-1]))
         closed = np.full(mesh.parts, True)
         groups = _kernel.Groups(
             mesh.triangle_part,
@@ -51,20 +52,24 @@ class Kernel:
             tight=np.zeros(mesh.parts, bool),
         )
         whole = _kernel.Mesh(points, mesh.triangles, edges, offsets, incident)
-        found = _kernel.visibility(whole, points, groups, role)
+        # As in a drawing.
+        deep = mesh.parts >= DEEP_GROUPS and len(edges) >= DEEP_EDGES
+        found = _kernel.visibility(whole, points, groups, role, pyramid=deep)
         seconds = time.perf_counter() - start
         self.counters = {name: int(value) for name, value in found.counters.items()}
         self.counters["pieces"] = len(found.edge)
         return seconds
 
 
-def _view(points: np.ndarray) -> np.ndarray:
-    """x right, y up, z away from the viewer. Not by BLAS, whose threads would wait for more work on a core of ours."""
+def _camera() -> Any:
+    """x right, y up, z away from the viewer."""
+    from hlr import _kernel
+
     toward = np.array(DIRECTION) / np.linalg.norm(DIRECTION)
     right = np.cross((0.0, 0.0, 1.0), toward)
     right /= np.linalg.norm(right)
-    axes = np.stack([right, np.cross(toward, right), -toward], axis=1)
-    return np.ascontiguousarray(np.einsum("ij,jk->ik", points, axes))
+    axes = (tuple(map(float, axis)) for axis in (toward, right, np.cross(toward, right)))
+    return _kernel.Camera(*axes, None, 1.0)
 
 
 def draw(shape: Any, accuracy: float) -> tuple[float, dict[str, int]]:

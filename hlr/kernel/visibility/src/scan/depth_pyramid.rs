@@ -94,7 +94,6 @@ impl DepthPyramid {
 
     /// Steps 1 and 2: the depths of the finest level, and how many groups cover at least one cell.
     fn nearest(&self, mesh: &Mesh, table: &PolygonTable, contours: &[Contour]) -> (Vec<i32>, usize) {
-        let farthest = farthest(mesh, table);
         let mut first = vec![0u32; mesh.groups.len() + 1];
         for c in contours {
             first[mesh.edge_group[c.edge as usize] as usize + 1] += 1;
@@ -117,7 +116,7 @@ impl DepthPyramid {
                 let own = &own[first[p] as usize..first[p + 1] as usize];
                 let mut covers = false;
                 self.covered(mesh, own, |cell| {
-                    cells[cell].fetch_min(farthest[p], Ordering::Relaxed);
+                    cells[cell].fetch_min(table.extents[p].farthest, Ordering::Relaxed);
                     covers = true;
                 });
                 covers
@@ -235,17 +234,4 @@ impl DepthPyramid {
         let (from, to) = clipped_x(a, b, low, low + (1i64 << self.shift));
         (self.column(from), self.column(to))
     }
-}
-
-/// Per group, the depth of its farthest counted polygon.
-fn farthest(mesh: &Mesh, table: &PolygonTable) -> Vec<i32> {
-    let mut out = vec![i32::MIN; mesh.groups.len()];
-    for (t, &group) in mesh.triangle_group.iter().enumerate() {
-        if table.counted(t) {
-            let (p, q, r) = mesh.corners(t);
-            let depth = &mut out[group as usize];
-            *depth = (*depth).max(p[2]).max(q[2]).max(r[2]);
-        }
-    }
-    out
 }

@@ -192,7 +192,7 @@ fn reached(mesh: &Mesh, table: &PolygonTable, boxes: &[Aabb], sought: &[bool], l
 
 /// Around the triangles of each group, and its edges without triangles.
 fn group_boxes(mesh: &Mesh, table: &PolygonTable) -> Vec<Aabb> {
-    let mut boxes = table.boxes.clone();
+    let mut boxes: Vec<Aabb> = table.extents.iter().map(|extent| extent.bounds).collect();
     let bare = (0..mesh.edges.len()).into_par_iter().with_min_len(1 << 14).filter(|&e| mesh.incident(e).is_empty());
     for e in bare.collect::<Vec<usize>>() {
         let (p, q) = mesh.ends(e);

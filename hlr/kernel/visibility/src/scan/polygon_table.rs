@@ -27,28 +27,46 @@ pub struct PolygonTable {
     /// Per triangle what is known of it, as bits: one byte is all that an edge reads of a triangle beside it.
     bits: Vec<u8>,
     pub culled: usize,
-    /// Around all triangles of each group.
-    pub boxes: Vec<Aabb>,
+    /// Per group.
+    pub extents: Vec<Extent>,
+}
+
+/// How far a group reaches.
+#[derive(Clone, Copy, Debug)]
+pub struct Extent {
+    /// Around all its triangles.
+    pub bounds: Aabb,
+    /// Depth of the farthest corner of its counted triangles.
+    pub farthest: i32,
+}
+
+impl Extent {
+    const NONE: Extent = Extent { bounds: Aabb::EMPTY, farthest: i32::MIN };
+
+    fn union(&self, other: &Extent) -> Extent {
+        Extent { bounds: self.bounds.union(&other.bounds), farthest: self.farthest.max(other.farthest) }
+    }
 }
 
 impl PolygonTable {
     pub fn new<A: Arithmetic>(mesh: &Mesh) -> PolygonTable {
         let mut bits = vec![0u8; mesh.triangles.len()];
-        let found: Vec<(usize, Vec<(i32, Aabb)>)> = bits
+        let found: Vec<(usize, Vec<(i32, Extent)>)> = bits
             .par_chunks_mut(TRIANGLES_AT_ONCE)
             .enumerate()
             .map(|(chunk, bits)| {
-                let (mut culled, mut boxes) = (0, Vec::new());
-                let mut around = (-1, Aabb::EMPTY);
+                let (mut culled, mut extents) = (0, Vec::new());
+                let mut own = (-1, Extent::NONE);
                 for (t, bits) in (chunk * TRIANGLES_AT_ONCE..).zip(bits) {
                     let (p, q, r) = mesh.corners(t);
                     let group = mesh.triangle_group[t];
                     // The triangles of a group stand together.
-                    if group != around.0 {
-                        boxes.push(around);
-                        around = (group, Aabb::EMPTY);
+                    if group != own.0 {
+                        extents.push(own);
+                        own = (group, Extent::NONE);
                     }
-                    around.1 = around.1.union(&Aabb::of(&[p, q, r]));
+                    let bounds = Aabb::of(&[p, q, r]);
+                    own.1.bounds = own.1.bounds.union(&bounds);
                     let facing = orient2d::<A>(p, q, r).sign();
                     if facing == 0 {
                         continue;
@@ -65,17 +83,20 @@ impl PolygonTable {
                     if almost_edge_on((p, q, r)) {
                         *bits |= ALMOST_EDGE_ON;
                     }
+                    if *bits & COUNTED != 0 {
+                        own.1.farthest = own.1.farthest.max(bounds.high[2]);
+                    }
                 }
-                boxes.push(around);
-                (culled, boxes)
+                extents.push(own);
+                (culled, extents)
             })
             .collect();
-        let mut boxes = vec![Aabb::EMPTY; mesh.groups.len()];
+        let mut extents = vec![Extent::NONE; mesh.groups.len()];
         for (group, own) in found.iter().flat_map(|f| &f.1).filter(|(group, _)| *group >= 0) {
-            let whole = &mut boxes[*group as usize];
+            let whole = &mut extents[*group as usize];
             *whole = whole.union(own);
         }
-        PolygonTable { bits, culled: found.iter().map(|f| f.0).sum(), boxes }
+        PolygonTable { bits, culled: found.iter().map(|f| f.0).sum(), extents }
     }
 
     /// Mean height in the image of counted triangles, in grid units, estimated from some of them.
@@ -174,7 +195,7 @@ mod tests {
             role: &[],
             groups: Vec::new(),
         };
-        PolygonTable { bits: vec![BACK; 2], culled: 2, boxes: Vec::new() }.turned_away(&mesh, &[0, 1])
+        PolygonTable { bits: vec![BACK; 2], culled: 2, extents: Vec::new() }.turned_away(&mesh, &[0, 1])
     }
 
     #[test]
