@@ -11,6 +11,9 @@ use crate::geometry::surface::Surface;
 use crate::part_topology::{PartTopology, part_topology};
 use crate::shapes::{Edge, Face, OnSurface, Shapes, Use};
 
+/// Edges, faces or parts that one thread makes in one go.
+const AT_ONCE: usize = 16;
+
 pub struct Model {
     pub locations: Locations,
     pub edges: Vec<Edge>,
@@ -41,16 +44,29 @@ impl Model {
     /// The parts contain too many shapes.
     pub fn of(mut dump: Dump, parts: &[Vec<Sub>]) -> Result<Model, Damaged> {
         let found = explore::explore(&mut dump, parts)?;
-        let mut triangulations: Vec<_> = std::mem::take(&mut dump.triangulations).into_iter().map(Some).collect();
-        let edges: Vec<Edge> = found.edges.iter().map(|&shape| edge(&mut dump, shape)).collect();
+        let mut locations = std::mem::replace(&mut dump.locations, Locations::none());
+        let edges = made(
+            &found.edges,
+            &mut locations,
+            |shape| edge_unplaced(&dump, *shape),
+            |shape, locations| edge(&dump, *shape, locations),
+        );
         let mut number = vec![None; dump.shapes.len()];
         (0..).zip(&found.edges).for_each(|(i, &shape)| number[shape as usize] = Some(i));
-        let faces: Vec<Face> =
-            found.faces.iter().map(|&shape| face(&mut dump, shape, &number, &edges, &mut triangulations)).collect();
-        let Dump { mut locations, curves2, .. } = dump;
-        let topology: Vec<PartTopology> =
-            found.parts.iter().map(|part| part_topology(part, &faces, &edges, &mut locations)).collect();
-        let mut model = Model { locations, edges, faces, parts: found.parts, topology, classes: Vec::new(), curves2 };
+        let faces = made(
+            &found.faces,
+            &mut locations,
+            |shape| face_unplaced(&dump, *shape),
+            |shape, locations| face(&dump, *shape, locations, &number, &edges),
+        );
+        let topology = made(
+            &found.parts,
+            &mut locations,
+            |part| part_unplaced(part, &faces),
+            |part, locations| part_topology(part, &faces, &edges, locations),
+        );
+        let (parts, curves2) = (found.parts, std::mem::take(&mut dump.curves2));
+        let mut model = Model { locations, edges, faces, parts, topology, classes: Vec::new(), curves2 };
         model.classify();
         Ok(model)
     }
@@ -74,11 +90,46 @@ impl Model {
     }
 }
 
-fn edge(dump: &mut Dump, shape: u32) -> Edge {
-    let shape = &mut dump.shapes[shape as usize];
-    let subs = std::mem::take(&mut shape.subs);
-    let Kind::Edge { tolerance, degenerate, ref mut on, continuity, .. } = shape.kind else { unreachable!("an edge") };
-    let on = std::mem::take(on);
+/// Makes something of each item. Those that are `unplaced` need no locations, and are made side by side; the others one
+/// after another, so that new locations get the same numbers in every run.
+fn made<T: Sync, U: Send>(
+    items: &[T],
+    locations: &mut Locations,
+    unplaced: impl Fn(&T) -> bool + Sync,
+    make: impl Fn(&T, &mut Locations) -> U + Sync,
+) -> Vec<U> {
+    let alone = |none: &mut Locations, item: &T| unplaced(item).then(|| make(item, none));
+    let found: Vec<Option<U>> = items.par_iter().with_min_len(AT_ONCE).map_init(Locations::none, alone).collect();
+    found.into_iter().zip(items).map(|(found, item)| found.unwrap_or_else(|| make(item, locations))).collect()
+}
+
+/// Whether no location of an edge but the identity is asked for.
+fn edge_unplaced(dump: &Dump, shape: u32) -> bool {
+    let shape = &dump.shapes[shape as usize];
+    let Kind::Edge { ref on, .. } = shape.kind else { return false };
+    let here = |on: &On| match *on {
+        On::Curve { location, .. } | On::Surface { location, .. } | On::Polygon { location, .. } => location == 0,
+    };
+    on.iter().all(here) && shape.subs.iter().all(|sub| sub.location == 0)
+}
+
+fn face_unplaced(dump: &Dump, shape: u32) -> bool {
+    let shape = &dump.shapes[shape as usize];
+    let here = |subs: &[Sub]| subs.iter().all(|sub| sub.location == 0);
+    matches!(shape.kind, Kind::Face { location: 0, .. })
+        && here(&shape.subs)
+        && shape.subs.iter().all(|wire| here(&dump.shapes[wire.shape as usize].subs))
+}
+
+fn part_unplaced(part: &Part, faces: &[Face]) -> bool {
+    let of_face = |face: &u32| faces[*face as usize].wires.iter().flatten().all(|used| used.location == 0);
+    part.edges.iter().all(|edge| edge.location == 0)
+        && part.faces.iter().all(|face| face.location == 0 && of_face(&face.face))
+}
+
+fn edge(dump: &Dump, shape: u32, locations: &mut Locations) -> Edge {
+    let Shape { kind, subs } = &dump.shapes[shape as usize];
+    let &Kind::Edge { tolerance, degenerate, ref on, continuity, .. } = kind else { unreachable!("an edge") };
     let mut found = Edge {
         curve: None,
         range: [0.0; 2],
@@ -94,24 +145,24 @@ fn edge(dump: &mut Dump, shape: u32) -> Edge {
         joints: Vec::new(),
     };
     for on in on {
-        match on {
+        match *on {
             On::Curve { curve, location, range } if found.curve.is_none() => {
-                let location = dump.locations.written(location);
+                let location = locations.written(location);
                 found.curve = if location == 0 {
                     dump.curves[curve].clone()
                 } else {
-                    let matrix = dump.locations.matrix(location);
+                    let matrix = locations.matrix(location);
                     dump.curves[curve].as_ref().map(|curve| curve.moved(&matrix))
                 };
                 found.range = range;
             }
             On::Surface { curves, surface, location, range } => {
-                let location = dump.locations.written(location);
+                let location = locations.written(location);
                 found.on.push(OnSurface { surface, location, curves, range });
             }
             On::Polygon { polygon, location } if found.polygon.is_none() => {
-                let location = dump.locations.written(location);
-                let matrix = dump.locations.matrix(location);
+                let location = locations.written(location);
+                let matrix = locations.matrix(location);
                 let points = &dump.polygons[polygon];
                 found.polygon = Some(points.iter().map(|p| crate::format::moved(&matrix, p)).collect());
             }
@@ -122,7 +173,7 @@ fn edge(dump: &mut Dump, shape: u32) -> Edge {
         found.curve = None;
         found.range = found.on.first().map_or([0.0; 2], |on| on.range);
         if let (Some(on), false) = (found.on.first(), degenerate) {
-            let matrix = dump.locations.matrix(on.location);
+            let matrix = locations.matrix(on.location);
             found.only_on = dump.surfaces[on.surface]
                 .as_ref()
                 .and_then(|r| Surface::read(r.kind, &moved(r.kind, &r.data, &matrix)?))
@@ -136,46 +187,39 @@ fn edge(dump: &mut Dump, shape: u32) -> Edge {
             _ => continue,
         };
         if found.ends[end].is_none() {
-            let location = dump.locations.written(sub.location);
+            let location = locations.written(sub.location);
             let Kind::Vertex { point, .. } = dump.shapes[sub.shape as usize].kind else { continue };
             found.ends[end] = Some((sub.shape, location));
-            found.end_points[end] = Some(crate::format::moved(&dump.locations.matrix(location), &point));
+            found.end_points[end] = Some(crate::format::moved(&locations.matrix(location), &point));
         }
     }
     found
 }
 
-fn face(
-    dump: &mut Dump,
-    shape: u32,
-    number: &[Option<u32>],
-    edges: &[Edge],
-    triangulations: &mut [Option<crate::format::Triangulation>],
-) -> Face {
-    let shape = &mut dump.shapes[shape as usize];
-    let subs = std::mem::take(&mut shape.subs);
-    let Kind::Face { tolerance, surface, location, triangulation } = shape.kind else { unreachable!("a face") };
-    let location = dump.locations.written(location);
+fn face(dump: &Dump, shape: u32, locations: &mut Locations, number: &[Option<u32>], edges: &[Edge]) -> Face {
+    let Shape { kind, subs } = &dump.shapes[shape as usize];
+    let &Kind::Face { tolerance, surface, location, triangulation } = kind else { unreachable!("a face") };
+    let location = locations.written(location);
     let record = if location == 0 {
         surface.and_then(|i| dump.surfaces[i].clone())
     } else {
-        let matrix = dump.locations.matrix(location);
+        let matrix = locations.matrix(location);
         let written = surface.and_then(|i| dump.surfaces[i].as_ref());
         written.and_then(|r| Some(SurfaceRecord { kind: r.kind, data: moved(r.kind, &r.data, &matrix)? }))
     };
     let read = record.as_ref().and_then(|r| Surface::read(r.kind, &r.data));
-    let own = if surface.is_none() { triangulation.and_then(|i| triangulations[i].clone()) } else { None };
+    let own = if surface.is_none() { triangulation.and_then(|i| dump.triangulations.get(i).cloned()) } else { None };
     let mut wires = Vec::with_capacity(subs.len());
     for wire in subs {
         let Shape { kind: Kind::Wire, subs: inner } = &dump.shapes[wire.shape as usize] else { continue };
-        let outer = dump.locations.written(wire.location);
+        let outer = locations.written(wire.location);
         let mut uses = Vec::with_capacity(inner.len());
         for &sub in inner {
             let Some(edge) = number[sub.shape as usize] else { continue };
-            let within = dump.locations.written(sub.location);
-            let stands = dump.locations.product(outer, within);
+            let within = locations.written(sub.location);
+            let stands = locations.product(outer, within);
             let orientation = wire.orientation.compose(sub.orientation);
-            let wanted = dump.locations.quotient(stands, location);
+            let wanted = locations.quotient(stands, location);
             let on = &edges[edge as usize].on;
             let of_surface = |on: &&OnSurface| Some(on.surface) == surface;
             let fits = on.iter().filter(of_surface).find(|on| on.location == wanted);
@@ -184,9 +228,9 @@ fn face(
                 (on.curves[usize::from(reversed)], on.range)
             });
             let curve2 = curve2.filter(|(_, range)| range.iter().all(|t| t.is_finite()));
-            let place = (stands != 0).then(|| dump.locations.matrix(stands));
+            let place = (stands != 0).then(|| locations.matrix(stands));
             let ends = edges[edge as usize].ends(edge);
-            let ends = ends.map(|(shape, location)| (shape, dump.locations.product(stands, location)));
+            let ends = ends.map(|(shape, location)| (shape, locations.product(stands, location)));
             uses.push(Use { edge, location: stands, place, orientation, ends, curve2 });
         }
         wires.push(uses);
