@@ -327,6 +327,7 @@ def outlined(
     columns: tuple[Bytes, Ints, Ints, Bools, Ints],
     first: Ints,
     closed: Bools,
+    near: Bools,
     convex: bool,
     kinds: tuple[Bools, Bools, int, int],
     camera: Camera,
@@ -335,11 +336,11 @@ def outlined(
     """The image with these outlines.
 
     columns: class, part and group of each edge, and whether a curved surface may show its outline there; group of each
-    triangle. first (p,): the first face of each part; closed (g,): groups that are closed bodies; convex: all is one
-    convex body. kinds: (256,) by the class of an edge, whether it bounds faces, and whether they join smoothly there;
-    the class of outlines, and that of edges inside faces. lengths, model units: how far points are moved beyond the
-    triangles that stand out, at most, and off a face before a line is compared with it. ValueError where they do not
-    fit.
+    triangle. first (p,): the first face of each part; closed (g,): groups that are closed bodies; near (g,): those that
+    others come near; convex: all is one convex body. kinds: (256,) by the class of an edge, whether it bounds faces,
+    and whether they join smoothly there; the class of outlines, and that of edges inside faces. lengths, model units:
+    how far points are moved beyond the triangles that stand out, at most, and off a face before a line is compared with
+    it. ValueError where they do not fit.
     """
 
 _Vector = tuple[float, float, float]

@@ -22,7 +22,8 @@ class OwnFaces:
     """Edges whose own faces are seen nearly edge-on, divided into stretches where a face turns over.
 
     edge (s,) ascending: the edge of each stretch; range (s, 2): the stretch's parameters on the edge's image
-    line (s,): the edge of the image that runs along the stretch; the edge itself where the stretch is all of it
+    line (s,): the edge of the image that runs along the stretch, in its true place; the edge itself where the stretch
+    is all of it, and for outlines, which are moved themselves, where no other body comes near
     beside (s,) uint8: the faces of a closed body show the stretch (1), hide it (2), or it is not known (0)
     dented (s,) bool: the edge's own triangles fold over there, though the faces do not
     offsets (s + 1,): where each stretch begins in face (k,), its faces, numbered through all parts, and in off (k,),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -48,6 +49,17 @@ def test_it_runs_in_its_own_folder_and_leaves_no_trace(script, tmp_path):
     shown(path)
     assert (os.getcwd(), sys.path, sys.argv) == before
     assert (tmp_path / "here.txt").exists()
+
+
+def test_a_relative_path_means_the_same_file_while_the_script_runs(script, tmp_path, monkeypatch):
+    (tmp_path / "sub" / "sub").mkdir(parents=True)
+    script(
+        CQ + "import sys, pathlib\nassert pathlib.Path(sys.argv[0]).exists()\nshow_object(box, 'this')\n", "sub/a.py"
+    )
+    script(CQ + "show_object(box, 'another')\n", "sub/sub/a.py")
+    monkeypatch.chdir(tmp_path)
+    for path in (Path("sub/a.py"), Path("sub/../sub/a.py"), Path("./sub/a.py")):
+        assert shown(path) == {"this": None}
 
 
 def test_the_main_guard_of_a_program_is_not_run(script):

@@ -49,6 +49,8 @@ def open_script(path: Path, var: str | None = None, parameters: Mapping[str, Par
         SourceError: the script fails (line and exception are named), or shows nothing.
         OptionError: it has no such variable, or that is no shape; it has no such parameter, or one of another kind.
     """
+    # The script runs in its own folder, where a relative path would mean another file.
+    path = path.absolute()
     shown: list[Shown] = []
     values = _run(path, shown, parameters or {})
     load_occt()
@@ -162,7 +164,8 @@ def _run(path: Path, shown: list[Shown], parameters: Mapping[str, Parameter]) ->
     except OptionError:
         raise
     except SyntaxError as error:
-        raise SourceError(f"{path.name}, line {error.lineno}: SyntaxError: {error.msg}.") from None
+        where = "" if error.lineno is None else f", line {error.lineno}"
+        raise SourceError(f"{path.name}{where}: SyntaxError: {error.msg}.") from None
     except SystemExit as error:
         if error.code not in (None, 0) and not shown:
             raise SourceError(f"{path.name} left with exit code {error.code} before it showed anything.") from None

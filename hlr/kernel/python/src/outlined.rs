@@ -69,6 +69,7 @@ pub fn outlined<'py>(
     columns: Columns<'py>,
     first: PyReadonlyArray1<'py, i32>,
     closed: PyReadonlyArray1<'py, bool>,
+    near: PyReadonlyArray1<'py, bool>,
     convex: bool,
     kinds: Kinds<'py>,
     camera: &Camera,
@@ -78,12 +79,13 @@ pub fn outlined<'py>(
     let (all, (triangle_face, ..)) = (reading.slices()?, places.slices()?);
     let (kind, part, group) = (slice(&columns.0, "kind")?, slice(&columns.1, "part")?, slice(&columns.2, "group")?);
     let (curved, triangle_group) = (slice(&columns.3, "curved")?, slice(&columns.4, "triangle_group")?);
-    let (first, closed) = (slice(&first, "first")?, slice(&closed, "closed")?);
+    let (first, closed, near) = (slice(&first, "first")?, slice(&closed, "closed")?, slice(&near, "near")?);
     let (border, tangent) = (slice(&kinds.0, "border")?, slice(&kinds.1, "tangent")?);
     for (name, found) in [("kind", kind.len()), ("part", part.len()), ("group", group.len()), ("curved", curved.len())]
     {
         expect_len(name, found, all.edges.len())?;
     }
+    expect_len("near", near.len(), closed.len())?;
     expect_len("triangle_group", triangle_group.len(), all.triangles.len())?;
     expect_len("triangle_face", triangle_face.len(), all.triangles.len())?;
     expect_len("border", border.len(), KINDS)?;
@@ -110,6 +112,7 @@ pub fn outlined<'py>(
         first,
         traced: &traced,
         closed,
+        near,
         convex,
         view: camera.0.view(),
     };

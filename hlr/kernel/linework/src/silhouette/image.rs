@@ -26,6 +26,8 @@ pub struct Image<'a> {
     pub traced: &'a [bool],
     /// Groups that are closed bodies.
     pub closed: &'a [bool],
+    /// Groups that others come near: their outlines may run where another body touches.
+    pub near: &'a [bool],
     /// All is one convex body.
     pub convex: bool,
     pub view: View,

@@ -80,6 +80,7 @@ pub fn outlined(
             lift: [[0.0; 3]; 2],
             beside: Beside::Unknown as u8,
             dented: false,
+            replaced: image.near[out.group[e] as usize],
         }));
         own_lines::add(&mut out, image, classes, &stretches);
     }
@@ -111,6 +112,7 @@ fn of_border(image: &Image, border: &Grazing, lengths: &Lengths) -> Stretch {
         lift,
         beside: beside as u8,
         dented: border.dented,
+        replaced: false,
     }
 }
 
@@ -144,6 +146,7 @@ mod tests {
             first: &[0],
             traced: &[true],
             closed: &[true],
+            near: &[false],
             convex: false,
             view: View { origin: [0.0; 3], away: [0.0, 0.0, -1.0], perspective: false },
         };

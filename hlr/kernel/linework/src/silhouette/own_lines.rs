@@ -17,11 +17,13 @@ pub struct Stretch {
     /// How its ends are moved off that face before it is compared with it, model units.
     pub off: [Vector; 2],
     /// How its ends are moved before it is compared with everything else; summed over the faces of a stretch, and used
-    /// only where the stretch is not the whole edge.
+    /// only where the stretch is not the whole edge, or is `replaced`.
     pub lift: [Vector; 2],
     /// As in `OwnFaces`.
     pub beside: u8,
     pub dented: bool,
+    /// The edge itself is moved, and a line of its own stands for it in its place: an outline that others come near.
+    pub replaced: bool,
 }
 
 /// Adds these stretches, sorted by edge, then by parameter; nothing where there are none.
@@ -39,7 +41,7 @@ pub(super) fn add(out: &mut Outlined, image: &Image, classes: &Classes, all: &[S
             let sum = |k: usize, i: usize| stretch[1..].iter().fold(first.lift[k][i], |sum, s| sum + s.lift[k][i]);
             [0, 1].map(|k| [0, 1, 2].map(|i| sum(k, i)))
         };
-        own.line.push(if whole { first.edge } else { along(out, classes, first, lift()) });
+        own.line.push(if whole && !first.replaced { first.edge } else { along(out, classes, first, lift()) });
         own.edge.push(first.edge);
         own.range.push(on_paper(out, image, first));
         own.beside.push(first.beside);
@@ -120,6 +122,7 @@ mod tests {
             first: &[0],
             traced: &[false; 4],
             closed: &[true],
+            near: &[false],
             convex: false,
             view: View { origin: [0.0; 3], away: [0.0, 0.0, -1.0], perspective },
         }
@@ -140,7 +143,7 @@ mod tests {
     fn stretch(range: [f64; 2], face: i32, lift: f64) -> Stretch {
         let off = [[0.0, 0.0, f64::from(face)]; 2];
         let lift = [[lift, 0.0, 0.0]; 2];
-        Stretch { edge: 0, range, face, off, lift, beside: Beside::Visible as u8, dented: face == 2 }
+        Stretch { edge: 0, range, face, off, lift, beside: Beside::Visible as u8, dented: face == 2, replaced: false }
     }
 
     #[test]
@@ -156,6 +159,10 @@ mod tests {
         assert!(out.kind[1..].iter().all(|kind| *kind == INTERIOR) && out.offsets[1..].iter().all(|at| *at == 2));
         // The whole edge is its own line.
         assert_eq!(added(0, false, &[stretch([0.0, 1.0], 1, 0.5)]).own.line, [0]);
+        // Unless that is moved: then a line stands in its place.
+        let out = added(0, false, &[Stretch { replaced: true, ..stretch([0.0, 1.0], 1, 0.0) }]);
+        assert_eq!((&out.own.line[..], &out.edges[1..2]), (&[1][..], &[[4, 5]][..]));
+        assert_eq!((out.points[5], out.lift[5]), ([0.0, 4.0, -3.0], [0.0; 3]));
     }
 
     #[test]

@@ -12,7 +12,7 @@
 //! 7. `invisibility`   the count along every drawn edge, checked at its far end
 //! 8. `exact_query`    the slow way, polygon by polygon, for a drawn edge whose check failed
 //! 9. `own_faces`      the slow way for edges whose own faces are seen nearly edge-on: hidden only if these turn over
-//!    (`sheets`: the triangles of faces that go on smoothly)
+//!    (`sheets`: the triangles of faces that go on smoothly; `touching`: outlines at which another body touches)
 //!
 //! Two shortcuts, taken where the scene calls for them, with the same result: `single_layer` (a convex body: culling
 //! alone decides) before 4, and `depth_pyramid` (deep scenes: what surely lies behind something needs no search).
@@ -38,3 +38,4 @@ pub mod scene;
 mod sheets;
 pub mod single_layer;
 pub mod sweep;
+mod touching;

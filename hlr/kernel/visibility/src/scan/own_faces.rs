@@ -129,6 +129,16 @@ impl OwnFaces<'_> {
         depth_scale: 1.0,
     };
 
+    /// The edges, each as the range of its stretches.
+    pub fn runs(&self) -> Vec<Range<usize>> {
+        let mut from = 0;
+        let run = |run: &[i32]| {
+            from += run.len();
+            from - run.len()..from
+        };
+        self.edge.chunk_by(|a, b| a == b).map(run).collect()
+    }
+
     /// The edges, each as its stretches, whose triangles of their own faces hide them otherwise than the faces do.
     pub fn differing<A: Arithmetic>(
         &self,
@@ -137,15 +147,7 @@ impl OwnFaces<'_> {
         exact: &ExactQuery,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Vec<Range<usize>> {
-        let mut from = 0;
-        let edges: Vec<Range<usize>> = self
-            .edge
-            .chunk_by(|a, b| a == b)
-            .map(|run| {
-                from += run.len();
-                from - run.len()..from
-            })
-            .collect();
+        let edges = self.runs();
         if edges.is_empty() {
             return Vec::new();
         }
@@ -224,7 +226,12 @@ impl OwnFaces<'_> {
             }
             let own = self.own_polygons(mesh, exact, sheets, s);
             let group = mesh.edge_group[edge];
-            let as_they_lie = own.iter().filter_map(|&(t, _)| Some((t, self.plain(mesh, s, t)?)));
+            let as_drawn = |t: usize| match mesh.incident(edge) {
+                // Outlines are moved off their face already.
+                [] => Some(mesh.ends(edge)),
+                _ => self.plain(mesh, s, t),
+            };
+            let as_they_lie = own.iter().filter_map(|&(t, _)| Some((t, as_drawn(t)?)));
             // Most stretches have no polygon of their own in front of them, wherever they are looked for.
             !own.is_empty()
                 && exact.decide_by::<A>(group, as_they_lie, &mut one)
@@ -328,7 +335,7 @@ impl OwnFaces<'_> {
     }
 
     /// A box around all positions of a stretch.
-    fn reach(&self, mesh: &Mesh, stretch: usize) -> Aabb {
+    pub fn reach(&self, mesh: &Mesh, stretch: usize) -> Aabb {
         let (a, b) = mesh.ends(self.line[stretch] as usize);
         self.faces(stretch).fold(Aabb::of(&[a, b]), |reach, k| {
             let (a, b) = mesh.ends(self.off[k] as usize);

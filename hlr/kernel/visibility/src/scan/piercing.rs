@@ -30,12 +30,14 @@ pub struct Piercings<P> {
     pub tests: u64,
     /// Number of groups for which a search was needed.
     pub groups: usize,
+    /// Whether it was, per group; empty where none was.
+    pub sought: Vec<bool>,
 }
 
 impl<P> Piercings<P> {
     /// Where none are looked for.
     pub fn none() -> Piercings<P> {
-        Piercings { events: Vec::new(), tests: 0, groups: 0 }
+        Piercings { events: Vec::new(), tests: 0, groups: 0, sought: Vec::new() }
     }
 }
 
@@ -93,7 +95,7 @@ pub fn piercings<A: Arithmetic>(
         })
         .collect();
     let tests = found.iter().map(|f| f.1).sum();
-    Piercings { events: found.into_iter().map(|f| f.0).collect(), tests, groups: searched }
+    Piercings { events: found.into_iter().map(|f| f.0).collect(), tests, groups: searched, sought }
 }
 
 /// Reports where a -> b passes through the polygon: in its true place, and moved toward the viewer by `delta`.

@@ -15,6 +15,7 @@ use super::own_faces::OwnFaces;
 use super::piercing::{Piercings, piercings};
 use super::polygon_table::PolygonTable;
 use super::single_layer::is_single_layer;
+use super::touching::touching;
 use hlr_exact::arithmetic::Arithmetic;
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -164,7 +165,11 @@ pub fn visibility_by<A: Arithmetic>(
     // 6. add the edges that culling and the pyramid decided
     let mut pieces = gathered(walked, &edges.hidden, &mut counters);
     seconds.counting = clock.lap();
-    // 7. correct edges whose own faces are seen edge-on
+    // 7. correct edges whose own faces are seen edge-on, and outlines at which another body touches
+    let mut differing = differing;
+    differing.extend(touching(mesh, own, &exact, &pierced.sought, &pieces, stopped));
+    differing.sort_unstable_by_key(|run| run.start);
+    differing.dedup();
     (pieces, counters.freed_of_own_faces) = own.applied::<A>(mesh, &table, &exact, &differing, pieces, stopped);
     seconds.own_faces += clock.lap();
     if stopped() {

@@ -1,0 +1,58 @@
+//! Outlines along which another body touches their face: two rollers side by side.
+//!
+//! An outline is moved off its face before it is compared with any polygon. Where another body touches the face there,
+//! it is moved into that body, which then hides all of it, however short the way. So the hidden ones of these are
+//! compared once more, in their true place, with all polygons but those of their own faces (`own_faces`).
+//!
+//! ```text
+//!       sight |  |
+//!             v  v
+//!          a  )|x(  b      o is the outline of a, x where it is moved to: behind the front of b
+//!             )o(
+//! ```
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::box_tree::BoxTree;
+use super::exact_query::ExactQuery;
+use super::invisibility::{Piece, State};
+use super::mesh::Mesh;
+use super::own_faces::OwnFaces;
+
+/// The outlines, each as its stretches, that are hidden in part and lie at polygons of other groups. near: per group,
+/// whether others come near it; pieces ascend by edge.
+pub fn touching(
+    mesh: &Mesh,
+    own: &OwnFaces,
+    exact: &ExactQuery,
+    near: &[bool],
+    pieces: &[Piece],
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Vec<Range<usize>> {
+    let is_near = |group: i32| near.get(group as usize) == Some(&true);
+    let hidden = |edge: u32| {
+        let first = pieces.partition_point(|p| p.edge < edge);
+        pieces[first..].iter().take_while(|p| p.edge == edge).any(|p| p.segment.state != State::Visible)
+    };
+    let asked = |run: &Range<usize>| {
+        let edge = own.edge[run.start];
+        is_near(mesh.edge_group[edge as usize]) && mesh.incident(edge as usize).is_empty() && hidden(edge as u32)
+    };
+    let outlines: Vec<Range<usize>> = own.runs().into_iter().filter(asked).collect();
+    if outlines.is_empty() {
+        return Vec::new();
+    }
+    let around = (0..mesh.triangles.len() as u32).filter(|&t| is_near(mesh.triangle_group[t as usize]));
+    let tree = BoxTree::by_all_threads(exact.boxes(around));
+    let touches = |run: &Range<usize>| {
+        let group = mesh.edge_group[own.edge[run.start] as usize];
+        run.clone().any(|stretch| {
+            let mut found = false;
+            tree.query(&own.reach(mesh, stretch), |t| found |= mesh.triangle_group[t as usize] != group);
+            found
+        })
+    };
+    outlines.into_par_iter().filter(|run| !stopped() && touches(run)).collect()
+}
