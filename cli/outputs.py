@@ -43,7 +43,7 @@ def plan(pattern: str | None, source: str, views: Sequence[str], ending: str) ->
     the ending. Raises OptionError where two views would have the same file, or a field is unknown; SourceError for a
     source that is a folder.
     """
-    if Path(source).is_dir():  # "." has no stem to name an output after
+    if os.path.isdir(source):  # "." has no stem to name an output after
         raise SourceError(f"{source} is a folder: name a model file in it")
     if pattern is None:
         pattern = ("{stem}-{view}." if len(views) > 1 else "{stem}.") + ending

@@ -68,7 +68,7 @@ def _split(path: Path) -> tuple[Path, str]:
 
 def _is_foreign(folder: Path) -> bool:
     name = folder.name
-    return name.startswith((".", "__")) or name in _NO_FOLDERS or (folder / "pyvenv.cfg").exists()
+    return name.startswith((".", "__")) or name in _NO_FOLDERS or os.path.exists(folder / "pyvenv.cfg")
 
 
 def _shows(script: Path) -> bool:

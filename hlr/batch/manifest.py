@@ -6,6 +6,7 @@ such a table the top names them itself.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -69,10 +70,10 @@ def without_file(root: Path, **given: Any) -> Manifest:
 
 def find(folder: Path) -> Path | None:
     """The manifest in a folder; None: there is none."""
-    if (folder / FILE).is_file():
+    if os.path.isfile(folder / FILE):
         return folder / FILE
     project = folder / PROJECT
-    if project.is_file():
+    if os.path.isfile(project):
         try:
             if "hlr" in parsed(project.read_text("utf-8")).get("tool", {}):
                 return project

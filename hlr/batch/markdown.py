@@ -40,7 +40,7 @@ def document(found: dict[str, Any]) -> bytes:
             [(title(s), f"{s['cost']['seconds']:.2f}", f"{s['cost']['peak_memory_mb']:.0f}") for s in slowest],
         ),
     ]
-    return "\n".join(filter(None, parts)).encode()
+    return "\n".join(filter(None, parts)).encode("utf-8", "replace")
 
 
 def _changed(found: dict[str, Any]) -> str:

@@ -5,10 +5,11 @@ Beside these keys every option of a drawing may be given: the fields of `hlr.Opt
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
+
+from hlr.common.numbers import is_finite
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +39,7 @@ def _is_none_or_texts(value: Any) -> bool:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    return isinstance(value, int | float) and is_finite(value)
 
 
 def _is_positive(value: Any) -> bool:

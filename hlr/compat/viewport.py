@@ -12,12 +12,12 @@ import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from numbers import Real
 from typing import Any
 
 import numpy as np
 
 from hlr import _kernel
+from hlr.common.numbers import is_finite
 from hlr.common.types import Floats
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line, Points
@@ -187,7 +187,7 @@ def check_vector(value: Any, what: str) -> Vector:
 
 def check_number(value: Any, what: str) -> float:
     """A finite number; raises OptionError."""
-    if not isinstance(value, Real) or isinstance(value, bool) or not math.isfinite(value):
+    if not is_finite(value):
         raise OptionError(f"{what} needs a finite number, not {value!r}")
     return float(value)
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from numbers import Integral, Real
+from numbers import Integral
 from typing import Any, Protocol, cast
 
 import numpy as np
 
+from hlr.common.numbers import is_finite, is_real
 from hlr.errors import OptionError, ViewError
 from hlr.request.directions import check_directions
 from hlr.request.drawing_effects import left_to_view
@@ -35,6 +35,8 @@ SWITCHES = (
     "hidden_objects",
 )
 """Options that are yes or no."""
+FARTHEST = 1e12
+"""Millimetres: of an eye or a target, in any coordinate."""
 NARROWEST, WIDEST = 0.01, 170.0
 """Degrees: fields of view that can be drawn."""
 
@@ -54,10 +56,10 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
             raise OptionError(f"{name} is yes or no: give True or False, not {value!r}")
     options = _with_size(options)
     accuracy = options.accuracy
-    if accuracy is not None and (not _is_real(accuracy) or not (math.isfinite(accuracy) and accuracy > 0.0)):
+    if accuracy is not None and not (is_finite(accuracy) and accuracy > 0.0):
         raise OptionError(f"accuracy {_shown(accuracy)} mm cannot be kept: give a positive length, such as 0.05")
     within = options.within
-    if within is not None and (not _is_real(within) or not (math.isfinite(within) and within > 0.0)):
+    if within is not None and not (is_finite(within) and within > 0.0):
         raise OptionError(f"within needs a positive number of seconds, not {_shown(within)}")
     if options.see_through and options.report:
         raise OptionError("report measures what all parts hide: leave it out, or see_through")
@@ -90,7 +92,7 @@ def _with_size(options: Options) -> Options:
     """Scale, fit and page, checked; the scale as a number."""
     scale, fit, page = options.scale, options.fit, options.page
     if scale is not None:
-        number = scale_of(scale) if isinstance(scale, str) or _is_real(scale) else None
+        number = scale_of(scale) if isinstance(scale, str) or is_real(scale) else None
         if number is None or not 1.0 / MOST_SCALE <= number <= MOST_SCALE:
             raise OptionError(f"scale {_shown(scale)} cannot be drawn: give a positive number or a ratio, 0.5 or 1:2")
         if number != scale:
@@ -121,7 +123,7 @@ def _check_page(page: Any) -> None:
 
 def check_crease(crease: float) -> None:
     """Raises OptionError unless the crease angle is 0 to 180 degrees."""
-    if not _is_real(crease) or not 0.0 <= crease <= 180.0:
+    if not is_real(crease) or not 0.0 <= crease <= 180.0:
         raise OptionError(f"crease {_shown(crease)} is not a crease angle: give 0 to 180 degrees")
 
 
@@ -162,7 +164,7 @@ def _parameters(values: Any) -> None:
     if not isinstance(values, Mapping) or not all(isinstance(name, str) for name in values):
         raise OptionError(f"parameters needs names with values, such as {{'size': 20}}, not {values!r}")
     for name, value in values.items():
-        if not isinstance(value, bool | str) and not (_is_real(value) and math.isfinite(value)):
+        if not isinstance(value, bool | str) and not is_finite(value):
             raise OptionError(f"the parameter {name} needs a number, a text, True or False, not {value!r}")
 
 
@@ -186,16 +188,14 @@ def _perspective(camera: Any) -> None:
     for name, point in (("eye", camera.eye), ("target", camera.target)):
         if point is not None and not _is_vector(point, 3):
             raise OptionError(f"{name} needs three finite numbers in millimetres, not {point!r}")
-    if camera.fov is not None and (not _is_real(camera.fov) or not NARROWEST <= camera.fov <= WIDEST):
+        if point is not None and max(map(abs, point)) > FARTHEST:
+            raise OptionError(f"{name} {point!r} is too far away: give numbers of at most {FARTHEST:g} millimetres")
+    if camera.fov is not None and (not is_real(camera.fov) or not NARROWEST <= camera.fov <= WIDEST):
         raise OptionError(f"a field of view of {camera.fov!r} degrees cannot be drawn: give {NARROWEST} to {WIDEST:g}")
 
 
 def _shown(value: Any) -> str:
-    return f"{value:g}" if _is_real(value) else repr(value)
-
-
-def _is_real(value: Any) -> bool:
-    return isinstance(value, Real) and not isinstance(value, bool)
+    return f"{value:g}" if is_real(value) else repr(value)
 
 
 def _is_strings(value: Any) -> bool:
@@ -207,4 +207,4 @@ def _is_vector(value: Any, length: int, finite: bool = True) -> bool:
         numbers = list(value)
     except TypeError:
         return False
-    return len(numbers) == length and all(_is_real(n) and (not finite or math.isfinite(n)) for n in numbers)
+    return len(numbers) == length and all(is_finite(n) if finite else is_real(n) for n in numbers)

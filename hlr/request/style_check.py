@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from numbers import Integral, Real
+from numbers import Integral
 from typing import Any
 
 from hlr.common.colors import hex_of, parse_color
+from hlr.common.numbers import is_finite
 from hlr.errors import OptionError
 from hlr.tables.entry import listed
 
@@ -63,7 +63,7 @@ def _color(value: Any) -> str | None:
 def checked_width(name: str, value: Any, or_else: str = "") -> float:
     """Millimetres. or_else: what else the error says is allowed."""
     low, high = WIDTHS
-    if not _is_real(value) or not low <= value <= high:
+    if not is_finite(value) or not low <= value <= high:
         raise OptionError(f"{name} needs millimetres, {low:g} to {high:g}{or_else}, not {value!r}")
     return float(value)
 
@@ -76,7 +76,7 @@ def checked_dash(value: Any) -> tuple[float, float] | tuple[()] | None:
     match list(value) if isinstance(value, Sequence) and not isinstance(value, str) else None:
         case []:
             return ()
-        case [dash, gap] if all(_is_real(v) and low <= v <= high for v in (dash, gap)) and dash >= 2 * gap:
+        case [dash, gap] if all(is_finite(v) and low <= v <= high for v in (dash, gap)) and dash >= 2 * gap:
             return (float(dash), float(gap))
     raise OptionError(
         "dash needs a dash and a gap in multiples of the line's width, such as [12, 3], the dash at least twice the "
@@ -86,7 +86,7 @@ def checked_dash(value: Any) -> tuple[float, float] | tuple[()] | None:
 
 def checked_dpi(value: Any) -> float | None:
     """Pixels per inch; None stays."""
-    if value is not None and (not _is_real(value) or not 1.0 <= value <= MOST_DPI):
+    if value is not None and (not is_finite(value) or not 1.0 <= value <= MOST_DPI):
         raise OptionError(f"dpi needs pixels per inch, 1 to {MOST_DPI:g}, not {value!r}")
     return None if value is None else float(value)
 
@@ -110,6 +110,3 @@ def check_one_of(name: str, value: Any, allowed: tuple[Any, ...]) -> None:
         shown = listed((str(each) for each in allowed if each is not None), "or")
         raise OptionError(f"{name} is {shown}, not {value!r}")
 
-
-def _is_real(value: Any) -> bool:
-    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)

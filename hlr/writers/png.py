@@ -76,7 +76,9 @@ def encoded(image: Any, told: dict[str, str], dpi: float | None = None) -> bytes
     from importlib.metadata import version
 
     info = _pillow("PngImagePlugin").PngInfo()
-    for key, value in {"Software": f"hlr {version('hlr-drawing')}", **told}.items():
+    for key, text in {"Software": f"hlr {version('hlr-drawing')}", **told}.items():
+        # The name of a file need not be UTF-8.
+        value = text.encode("utf-8", "replace").decode("utf-8")
         if value.isascii():
             info.add_text(key, value, zip=len(value) > 1000)
         else:
