@@ -111,6 +111,12 @@ impl<'a> Face<'a> {
         self.derivatives(uv).map(|d| length(&d))
     }
 
+    /// Whether the surface may have wrinkles. Spheres turn over once, cylinders and cones along whole rulings from border
+    /// to border: none of them has.
+    pub fn has_wrinkles(&self) -> bool {
+        !matches!(self.surface, Surface::Plane(_) | Surface::Cylinder(..) | Surface::Cone(..) | Surface::Sphere(..))
+    }
+
     /// A point on the axis of revolution and the axis direction; None for a sphere.
     pub fn axis(&self) -> Option<(Vector, Vector)> {
         let (origin, axis) = self.surface.axis()?;

@@ -2,6 +2,7 @@
 
 use super::Model;
 use super::face::{Face, Place, between};
+use hlr_accuracy::OUTLINE_VALLEY;
 use hlr_brep::geometry::vector::{Vector, dot, from_line, length, sub};
 
 /// A stretch of a silhouette over one face between two points of it.
@@ -18,6 +19,8 @@ pub struct Stretch {
     pub concave: bool,
     /// How far triangles here stand out beyond the surface's tangent plane at both ends.
     pub rise: [f64; 2],
+    /// Of a concave stretch that nothing before it hides within the tolerance: the rise as if it were not concave.
+    pub shallow: Option<[f64; 2]>,
 }
 
 impl Stretch {
@@ -26,6 +29,7 @@ impl Stretch {
         self.normals.reverse();
         self.uv.reverse();
         self.rise.reverse();
+        self.shallow = self.shallow.map(|[a, b]| [b, a]);
     }
 }
 
@@ -60,9 +64,18 @@ pub fn stretches(model: &Model, triangle: i32, face: &Face, from: Place, to: Pla
     }
     let bend: Vec<f64> = places.iter().map(|p| face.radial(p.uv) * chord).collect();
     let piece = |a: &Place, b: &Place, concave: bool| {
-        let rise = [a, b].map(|at| rise(model, &[triangle], &at.point, &outward(&at.normal, concave)));
-        let uv = [a, b].map(|at| Some(at.uv));
-        Stretch { from: a.point, to: b.point, normals: [a.normal, b.normal], uv, source: -1, concave, rise }
+        let rise = |concave| [a, b].map(|at| rise(model, &[triangle], &at.point, &outward(&at.normal, concave)));
+        let lower = if face.radial(a.uv) < face.radial(b.uv) { a } else { b };
+        Stretch {
+            from: a.point,
+            to: b.point,
+            normals: [a.normal, b.normal],
+            uv: [a, b].map(|at| Some(at.uv)),
+            source: -1,
+            concave,
+            rise: rise(concave),
+            shallow: (concave && !hides(face, lower, chord)).then(|| rise(false)),
+        }
     };
     let mut out = Vec::with_capacity(places.len());
     for k in 1..places.len() {
@@ -78,6 +91,38 @@ pub fn stretches(model: &Model, triangle: i32, face: &Face, from: Place, to: Pla
         }
     }
     out
+}
+
+/// Steps in which a valley is crossed.
+const ACROSS: u32 = 16;
+
+/// Whether a surface that bends toward its normal at a place rises before it, as seen by the viewer, by more than the
+/// tolerance. A surface seen edge-on over a long way has valleys and ridges that nobody sees: there all is outline.
+///
+/// ```text
+///      viewer >- - - - - - - -.-.- - -     the ridge . hides the bottom of the valley v only if it is high
+///                        ___.'   `.v__
+/// ```
+fn hides(face: &Face, place: &Place, chord: f64) -> bool {
+    let most = OUTLINE_VALLEY * chord;
+    let bend = face.radial(place.uv).abs();
+    if !face.has_wrinkles() || bend <= 0.0 {
+        return true;
+    }
+    let step = (2.0 * most / bend).sqrt() * 2.0 / f64::from(ACROSS);
+    let mut uv = place.uv;
+    for _ in 0..ACROSS {
+        let Some(way) = face.along_sight(uv) else { return true };
+        uv = [0, 1].map(|k| uv[k] - step * way[k]);
+        let (Some(f), point) = (face.f(uv), face.point(uv)) else { return true };
+        if dot(&sub(&point, &place.point), &place.normal) > most || !f.is_finite() {
+            return true;
+        }
+        if f < 0.0 {
+            return false;
+        }
+    }
+    true
 }
 
 fn divide(face: &Face, a: &Place, b: &Place, chord: f64, depth: u32, out: &mut Vec<Place>) {

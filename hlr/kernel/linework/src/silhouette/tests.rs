@@ -8,7 +8,8 @@ use hlr_brep::geometry::vector::{Vector, dot, length, sub};
 use hlr_mesh::topology::topology;
 
 use super::face::Face;
-use super::trace::{Traced, trace};
+use super::refine::Stretch;
+use super::trace::{Traced, fill_shallow, trace};
 use super::{FaceRecord, Model};
 use crate::lines::View;
 
@@ -167,4 +168,31 @@ fn the_same_on_any_number_of_threads() {
 #[test]
 fn it_can_be_stopped() {
     assert!(cylinder().traced(false, true).is_none());
+}
+
+/// Only where nothing is hidden from cusp to cusp, a concave run counts as others; of a closed curve a run may go over
+/// its start.
+#[test]
+fn a_valley_is_filled_as_a_whole_or_not_at_all() {
+    let stretch = |mark: char| Stretch {
+        from: [0.0; 3],
+        to: [1.0, 0.0, 0.0],
+        normals: [[0.0, 0.0, 1.0]; 2],
+        uv: [None; 2],
+        source: -1,
+        concave: mark != '+',
+        rise: [1.0; 2],
+        shallow: (mark == 's').then_some([2.0; 2]),
+    };
+    let filled = |marks: &str, closed: bool| -> String {
+        let mut pieces: Vec<(i32, Stretch)> = marks.chars().map(|mark| (0, stretch(mark))).collect();
+        fill_shallow(&mut pieces, closed);
+        assert!(pieces.iter().all(|(_, s)| s.rise == [1.0; 2] || !s.concave));
+        pieces.iter().map(|(_, s)| if s.concave { '-' } else { '+' }).collect()
+    };
+    assert_eq!(filled("+ss+sd+ss", false), "++++--+++");
+    assert_eq!(filled("ss+sd+d", false), "+++--+-");
+    assert_eq!(filled("s+ss+d", true), "-++++-");
+    assert_eq!(filled("ssd", true), "---");
+    assert_eq!(filled("sss", true), "+++");
 }

@@ -83,6 +83,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
             source: fold.source,
             concave: fold.concave,
             rise: fold.rise,
+            shallow: None,
         }],
     }));
     for link in &mut links {
@@ -295,6 +296,7 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model) ->
             s.concave = before;
         }
     }
+    fill_shallow(&mut pieces, closed);
     let key = |p: &(i32, Stretch)| (p.0, p.1.concave, p.1.source);
     let goes_on = |a: &(i32, Stretch), b: &(i32, Stretch)| key(a) == key(b) && !turns_back(model, &a.1, &b.1);
     if closed && let Some(k) = (1..pieces.len()).find(|&k| !goes_on(&pieces[k - 1], &pieces[k])) {
@@ -329,6 +331,28 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model) ->
         });
     }
     out
+}
+
+/// Concave stretches count as others where no stretch from cusp to cusp lies behind anything within the tolerance: a
+/// surface seen edge-on over a long way has valleys and ridges there that nobody sees.
+pub(super) fn fill_shallow(pieces: &mut [(i32, Stretch)], closed: bool) {
+    let n = pieces.len();
+    // Of a closed curve first a stretch that is not concave, so that no run is cut in two.
+    let first = if closed { pieces.iter().position(|(_, s)| !s.concave).unwrap_or(0) } else { 0 };
+    let mut from = 0;
+    while from < n {
+        let concave = |k: usize| pieces[(first + k) % n].1.concave;
+        let to = (from..n).find(|&k| concave(k) != concave(from)).unwrap_or(n);
+        if concave(from) && (from..to).all(|k| pieces[(first + k) % n].1.shallow.is_some()) {
+            for k in from..to {
+                let stretch = &mut pieces[(first + k) % n].1;
+                if let Some(rise) = stretch.shallow.take() {
+                    (stretch.concave, stretch.rise) = (false, rise);
+                }
+            }
+        }
+        from = to;
+    }
 }
 
 /// The curve through points of a face's silhouette; two points are a straight line.

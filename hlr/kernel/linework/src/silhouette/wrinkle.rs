@@ -18,7 +18,6 @@ use rayon::prelude::*;
 use super::face::{Face, root};
 use super::{Model, TIE};
 use hlr_accuracy::OUTLINE_WRINKLE;
-use hlr_brep::geometry::surface::Surface;
 use hlr_brep::geometry::vector::{length, sub};
 
 /// Two nodes that an edge inside of a face joins.
@@ -104,20 +103,15 @@ fn turns_back(face: &Face, model: &Model, node: usize, f: f64) -> bool {
     })
 }
 
-/// Whether a face may have wrinkles. Spheres turn over once, cylinders and cones along whole rulings from border to
-/// border: none of them has wrinkles.
-fn bends(model: &Model, face: i32) -> bool {
-    let surface = model.faces[face as usize].surface.and_then(|s| model.surfaces[s as usize].as_ref());
-    !matches!(surface, None | Some(Surface::Plane(_) | Surface::Cylinder(..) | Surface::Cone(..) | Surface::Sphere(..)))
-}
-
 /// The ties between nodes with a value; NaN is the value of a pole, and of nodes of faces that are not traced.
 fn ties(model: &Model, values: &[f64]) -> Vec<Tie> {
     let mut found: Vec<(i32, u32, u32)> = model
         .corner
         .par_iter()
         .zip(model.triangle_face)
-        .filter(|&(c, &face)| bends(model, face) && c.iter().all(|&n| n >= 0))
+        .filter(|&(c, &face)| {
+            Face::new(model, face).is_some_and(|face| face.has_wrinkles()) && c.iter().all(|&n| n >= 0)
+        })
         .flat_map_iter(|(c, &face)| {
             let sides = [[c[0], c[1]], [c[1], c[2]], [c[2], c[0]]];
             sides.map(|[a, b]| (face, a.min(b) as u32, a.max(b) as u32)).into_iter()
