@@ -52,7 +52,7 @@ def test_a_growing_tree_is_stopped():
         BspTree(soup(3000), memory_limit=32 * 2**20)
     assert "memory" in str(full.value)
     with pytest.raises(NotFinishedError):
-        painters_list(soup(3000), SCREEN, (64, 64), "depth sort", time_limit=0.05)
+        painters_list(soup(3000), SCREEN, (64, 64), "depth sort", time_limit=1e-3)
 
 
 def test_triangulating_is_stopped():
