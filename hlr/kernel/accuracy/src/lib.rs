@@ -69,7 +69,7 @@ pub const OUTLINE_CORNER: f64 = 20.0;
 /// Of the chord tolerance, of which an accuracy has ten: a wrinkle of a surface that rises by less is no outline.
 pub const OUTLINE_WRINKLE: f64 = 15.0;
 /// Of the chord tolerance: a ridge of a surface that rises by less hides nothing of the valley behind it.
-pub const OUTLINE_VALLEY: f64 = 5.0;
+pub const OUTLINE_VALLEY: f64 = 1.0;
 
 // Lines on their curves.
 
