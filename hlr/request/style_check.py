@@ -109,4 +109,3 @@ def check_one_of(name: str, value: Any, allowed: tuple[Any, ...]) -> None:
     if not any(value is each or (isinstance(each, str) and value == each) for each in allowed):
         shown = listed((str(each) for each in allowed if each is not None), "or")
         raise OptionError(f"{name} is {shown}, not {value!r}")
-
