@@ -114,7 +114,7 @@ impl<A: Arithmetic> Cover<A> {
         [orient2d::<A>(&self.q, &self.r, v), orient2d::<A>(&self.r, &self.p, v), orient2d::<A>(&self.p, &self.q, v)]
     }
 
-    /// The same, or None where one of them is negative: `v` lies outside.
+    /// The same, or None as soon as one of them is negative: `v` lies outside.
     #[inline(always)]
     pub fn sides_within(&self, v: &Point) -> Option<[A::Area; 3]> {
         let one = orient2d::<A>(&self.q, &self.r, v);

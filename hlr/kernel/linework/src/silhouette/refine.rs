@@ -65,7 +65,8 @@ pub fn stretches(model: &Model, triangle: i32, face: &Face, from: Place, to: Pla
     let bend: Vec<f64> = places.iter().map(|p| face.radial(p.uv) * chord).collect();
     let piece = |a: &Place, b: &Place, concave: bool| {
         let rise = |concave| [a, b].map(|at| rise(model, &[triangle], &at.point, &outward(&at.normal, concave)));
-        let lower = if face.radial(a.uv) < face.radial(b.uv) { a } else { b };
+        let deeper = || if face.radial(a.uv) < face.radial(b.uv) { a } else { b };
+        let shallow = concave && face.has_wrinkles() && !hides(face, deeper(), chord);
         Stretch {
             from: a.point,
             to: b.point,
@@ -74,7 +75,7 @@ pub fn stretches(model: &Model, triangle: i32, face: &Face, from: Place, to: Pla
             source: -1,
             concave,
             rise: rise(concave),
-            shallow: (concave && !hides(face, lower, chord)).then(|| rise(false)),
+            shallow: shallow.then(|| rise(false)),
         }
     };
     let mut out = Vec::with_capacity(places.len());
@@ -106,7 +107,7 @@ const ACROSS: u32 = 16;
 fn hides(face: &Face, place: &Place, chord: f64) -> bool {
     let most = OUTLINE_VALLEY * chord;
     let bend = face.radial(place.uv).abs();
-    if !face.has_wrinkles() || bend <= 0.0 {
+    if bend <= 0.0 {
         return true;
     }
     let step = (2.0 * most / bend).sqrt() * 2.0 / f64::from(ACROSS);

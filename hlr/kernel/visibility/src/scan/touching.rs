@@ -31,6 +31,9 @@ pub fn touching(
     pieces: &[Piece],
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Vec<Range<usize>> {
+    if !near.contains(&true) {
+        return Vec::new();
+    }
     let is_near = |group: i32| near.get(group as usize) == Some(&true);
     let hidden = |edge: u32| {
         let first = pieces.partition_point(|p| p.edge < edge);
