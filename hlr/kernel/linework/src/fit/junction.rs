@@ -56,6 +56,7 @@ fn covered(routes: &[Route], changes: &[Change], accuracy: f64, contact: f64, vi
             let Change { at, ends } = &changes[group[0].0];
             let (i, end) = ends[0];
             let own = &routes[i];
+            let goes_on = ends.len() == 1 && own.left_out[end];
             let start = own.parameter(end * (own.flat.len() - 2), end as f64);
             let mut best = (f64::INFINITY, None);
             for &(_, j, k) in group {
@@ -81,8 +82,9 @@ fn covered(routes: &[Route], changes: &[Change], accuracy: f64, contact: f64, vi
                 };
                 let Some(t) = own.ending(t, start) else { continue };
                 let moved = length(&minus(&own.at(t)[0], &own.at(start)[0]));
-                let before = view.depth(&other.in_space(u, view)) <= view.depth(&own.in_space(t, view)) + contact;
-                if moved < best.0 && before && within(other, u, reach * accuracy) {
+                // What was left out of an outline runs beside the other line, before it or behind it.
+                let before = || view.depth(&other.in_space(u, view)) <= view.depth(&own.in_space(t, view)) + contact;
+                if moved < best.0 && (goes_on || before()) && within(other, u, reach * accuracy) {
                     best = (moved, Some(t));
                 }
             }
@@ -235,7 +237,7 @@ mod tests {
     use hlr_brep::geometry::curve::Vec3;
 
     fn straight<'a>(chain: i32, visible: bool, flat: &'a [Vec2], space: &'a [Vec3]) -> Route<'a> {
-        Route { chain, visible, border: Border::Edge, flat, space, curve: None, bulge: 0.0 }
+        Route { chain, visible, left_out: [false; 2], border: Border::Edge, flat, space, curve: None, bulge: 0.0 }
     }
 
     #[test]

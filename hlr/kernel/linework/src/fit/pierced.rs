@@ -50,6 +50,7 @@ mod tests {
         let route = |i: usize| Route {
             chain: 4,
             visible: i == 0,
+            left_out: [false; 2],
             border: Border::Edge,
             flat: &flat[i],
             space: &space[i],

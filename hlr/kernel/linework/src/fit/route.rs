@@ -18,6 +18,8 @@ pub enum Border {
 pub struct Route<'a> {
     pub chain: i32,
     pub visible: bool,
+    /// As of its `Polyline`.
+    pub left_out: [bool; 2],
     pub border: Border,
     pub flat: &'a [Vec2],
     pub space: &'a [Vec3],

@@ -94,6 +94,7 @@ pub fn on_curves(
             Route {
                 chain: line.chain as i32,
                 visible: line.visible,
+                left_out: line.left_out,
                 border: guide.border,
                 flat: &line.flat,
                 space: &line.space,

@@ -52,7 +52,7 @@ mod tests {
         let deep = [[0.0; 3]; 2];
         let route = |visible, flat| {
             let border = Border::Edge;
-            Route { chain: 7, visible, border, flat, space: &deep, curve: None, bulge: 0.0 }
+            Route { chain: 7, visible, left_out: [false; 2], border, flat, space: &deep, curve: None, bulge: 0.0 }
         };
         let routes = [route(true, &seen[..]), route(false, &hidden[..])];
         let line = |flat: [[f64; 2]; 2]| {

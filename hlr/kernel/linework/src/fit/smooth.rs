@@ -51,7 +51,13 @@ pub fn smooth(
     let mut fitting = Fitting::new(&way, &kept, &tangents, CONTOUR_FIT * accuracy);
     fitting.all(&fixed);
     let pieces = fitting.pieces;
-    let mut out = Polyline { chain: line.chain, visible: line.visible, flat: vec![way[0]], space: vec![line.space[0]] };
+    let mut out = Polyline {
+        chain: line.chain,
+        visible: line.visible,
+        left_out: line.left_out,
+        flat: vec![way[0]],
+        space: vec![line.space[0]],
+    };
     for piece in &pieces {
         let many = steps(&piece.points, CONTOUR_CHORD * accuracy);
         let mut places: Vec<f64> = (1..many).map(|k| k as f64 / many as f64).collect();
@@ -243,7 +249,7 @@ mod tests {
 
     fn line(flat: Vec<Vec2>) -> Polyline {
         let space = flat.iter().map(|p| [p[0], p[1], 7.0]).collect();
-        Polyline { chain: 3, visible: true, flat, space }
+        Polyline { chain: 3, visible: true, flat, space, ..Polyline::default() }
     }
 
     fn farthest(from: &[Vec2], to: &[Vec2]) -> f64 {

@@ -166,7 +166,7 @@ mod tests {
 
     fn line(visible: bool, points: &[[f64; 2]]) -> Polyline {
         let space = points.iter().map(|p| [p[0], p[1], 0.0]).collect();
-        Polyline { chain: 0, visible, flat: points.to_vec(), space }
+        Polyline { visible, flat: points.to_vec(), space, ..Polyline::default() }
     }
 
     #[test]

@@ -36,7 +36,12 @@ mod tests {
 
     #[test]
     fn the_own_ends_of_a_loop_are_not_those_of_another_line() {
-        let line = |flat: Vec<[f64; 2]>| Polyline { chain: 0, visible: true, space: vec![[0.0; 3]; flat.len()], flat };
+        let line = |flat: Vec<[f64; 2]>| Polyline {
+            visible: true,
+            space: vec![[0.0; 3]; flat.len()],
+            flat,
+            ..Polyline::default()
+        };
         let ring = line(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]);
         let rib = line(vec![[5.0, 5.0], [1.0, 0.0]]);
         let ends = Ends::of(&[ring.clone(), rib]);

@@ -226,7 +226,7 @@ mod tests {
     fn points_of_a_line_that_is_straight_on_paper_lie_on_its_chord_in_order() {
         let flat = vec![[0.0, 0.0], [-0.01, 0.001], [3.0, 0.002], [2.99, 0.0], [4.0, 0.0]];
         let space = vec![[0.0; 3]; 5];
-        let mut line = Polyline { chain: 0, visible: true, flat, space: space.clone() };
+        let mut line = Polyline { visible: true, flat, space: space.clone(), ..Polyline::default() };
         flatten(&mut line);
         assert_eq!(line.flat, [[0.0, 0.0], [0.0, 0.0], [3.0, 0.0], [3.0, 0.0], [4.0, 0.0]]);
         assert_eq!(line.space, space);

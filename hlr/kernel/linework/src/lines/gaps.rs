@@ -144,11 +144,13 @@ pub(super) fn rest(line: &Polyline, gaps: &[Covered], widths: Widths, view: &Vie
     let ends = gaps.iter().map(|g| (g.from, g.to, g.own)).chain([(total, total, false)]);
     for (from, to, own) in ends {
         if from > before {
-            let piece = stretch(line, before, from, view);
+            let mut piece = stretch(line, before, from, view);
+            piece.left_out = [before > 0.0, from < total];
             match out.last_mut() {
                 Some(last) if before_own && goes_on(last, &piece, 4.0 * width) => {
                     last.flat.extend(&piece.flat);
                     last.space.extend(&piece.space);
+                    last.left_out[1] = piece.left_out[1];
                 }
                 _ => out.push(piece),
             }

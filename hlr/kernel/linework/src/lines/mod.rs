@@ -40,6 +40,8 @@ mod tests;
 pub struct Polyline {
     pub chain: u32,
     pub visible: bool,
+    /// Whether it goes on beyond its start, and beyond its end, where another line coincides with it and is drawn instead.
+    pub left_out: [bool; 2],
     pub flat: Vec<[f64; 2]>,
     pub space: Vec<[f64; 3]>,
 }

@@ -65,7 +65,7 @@ mod tests {
     fn keeps_what_bends_on_paper_or_in_depth() {
         let flat = vec![[0.0, 0.0], [1.0, 0.001], [2.0, 0.0], [3.0, 0.0], [4.0, 0.0]];
         let space = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 1.0], [4.0, 0.0, 0.0]];
-        let mut line = Polyline { chain: 0, visible: true, flat, space };
+        let mut line = Polyline { visible: true, flat, space, ..Polyline::default() };
         let mut pinned = line.clone();
         simplify(&mut line, &[false; 5], 0.01, 0.01);
         assert_eq!(line.flat, [[0.0, 0.0], [2.0, 0.0], [3.0, 0.0], [4.0, 0.0]]);

@@ -109,10 +109,10 @@ mod tests {
     #[test]
     fn small_pieces_of_a_long_profile_stay() {
         let piece = |x: f64| Polyline {
-            chain: 0,
             visible: true,
             flat: vec![[x, 0.0], [x + 0.5, 0.0]],
             space: vec![[0.0; 3]; 2],
+            ..Polyline::default()
         };
         let mut lines = vec![piece(0.0), piece(0.5), piece(1.0), piece(9.0)];
         drop_specks(&mut lines, 1.0);
@@ -122,10 +122,10 @@ mod tests {
     #[test]
     fn a_dot_at_the_end_of_a_line_goes_and_a_row_of_dots_stays() {
         let piece = |x: f64, length: f64| Polyline {
-            chain: 0,
             visible: true,
             flat: vec![[x, 0.0], [x + length, 0.0]],
             space: vec![[0.0; 3]; 2],
+            ..Polyline::default()
         };
         let mut lines = vec![piece(0.0, 8.0), piece(8.0, 0.0625)];
         drop_specks(&mut lines, 1.0);
