@@ -42,3 +42,10 @@ def test_what_lies_behind_is_hidden_as_before(outlines):
     """The far side of the inlet, which bends inward: its outlines are 50 mm long on paper."""
     hidden = [line for line in outlines if not line.visible and line.face in (0, 1)]
     assert sum(float(np.linalg.norm(np.diff(line.points, axis=0), axis=1).sum()) for line in hidden) > 200.0
+
+
+def test_the_nose_is_whole_where_its_surface_turns_over_in_its_last_bit(outlines):
+    """The normals of the outer faces at the lip are opposite to those of the inner ones."""
+    nose = [line for line in outlines if line.face in (2, 3)]
+    assert len(nose) > 4
+    assert not [line for line in nose if not line.visible]

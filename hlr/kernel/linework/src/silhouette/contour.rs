@@ -226,8 +226,11 @@ fn folded(model: &Model, e: usize, sides: &[Side], at: [Option<(f64, u32, Place)
         // The front side over this stretch.
         let f = [0, 1].map(|k| sides[k].f[0] + (sides[k].f[1] - sides[k].f[0]) * t);
         let front = usize::from(f[1] < f[0]);
-        let normal = mean(&sides[0].normal, &sides[1].normal);
-        let (concave, triangles) = (concave(model, e, sides, t), [sides[0].triangle, sides[1].triangle]);
+        let triangles = [sides[0].triangle, sides[1].triangle];
+        let (normal, concave) = match turned_over(model, sides) {
+            Some(k) => (sides[1 - k].normal, false),
+            None => (mean(&sides[0].normal, &sides[1].normal), concave(model, e, sides, t)),
+        };
         out.push(Fold {
             ends: [pair[0].1, pair[1].1],
             points: [pair[0].2, pair[1].2],
@@ -239,6 +242,20 @@ fn folded(model: &Model, e: usize, sides: &[Side], at: [Option<(f64, u32, Place)
             concave,
         });
     }
+}
+
+/// Which of two sides with opposite normals is the one whose surface turns over in its last bit before the edge, as some
+/// files have it: the one whose normal is less that of its triangle. How it bends there has no meaning.
+fn turned_over(model: &Model, sides: &[Side]) -> Option<usize> {
+    if dot(&sides[0].normal, &sides[1].normal) > 0.0 {
+        return None;
+    }
+    let agrees = |side: &Side| {
+        let [p, q, r] = model.triangles[side.triangle as usize].map(|v| model.points[v as usize]);
+        let normal = cross(&sub(&q, &p), &sub(&r, &p));
+        dot(&normal, &side.normal) / length(&normal)
+    };
+    Some(usize::from(agrees(&sides[1]) < agrees(&sides[0])))
 }
 
 /// Whether the surfaces beside a fold bend toward their normals along the line of sight: judged on a curved side, or,
