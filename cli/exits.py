@@ -16,7 +16,7 @@ import click
 from hlr.errors import HlrError, KernelError
 
 from . import guard, signals
-from .streams import ReaderGoneError
+from .streams import ReaderGoneError, printing
 
 REFUSED = 2
 FAULT = 1
@@ -29,7 +29,8 @@ def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoRet
     # Huge coordinates overflow on their way to an error or a drawing: NumPy's own warnings do not help the user.
     warnings.filterwarnings("ignore", category=RuntimeWarning, module=r"(hlr|numpy|trimesh)\b")
     try:
-        result = command.main(args=arguments, prog_name="hlr", standalone_mode=False)
+        with printing():
+            result = command.main(args=arguments, prog_name="hlr", standalone_mode=False)
         _leave(result if isinstance(result, int) else 0)
     except click.exceptions.NoArgsIsHelpError as error:
         _say(error.format_message())
@@ -79,7 +80,7 @@ def _refuse(message: str, kind: str, code: int = REFUSED) -> NoReturn:
         import json
 
         document = {"error": {"kind": kind, "message": text, "exit_code": code}}
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(HlrError, ReaderGoneError):
             sys.stdout.write(json.dumps(document, indent=2) + "\n")
     _leave(code)
 
@@ -120,8 +121,11 @@ def _leave(code: int) -> NoReturn:
     try:
         if sys.stdout is not None:
             sys.stdout.flush()
-    except BrokenPipeError:
+    except ReaderGoneError:
         _broken_pipe()
+    except HlrError:
+        # It was said before. Python would try once more to write what is left.
+        sys.stdout = None
     guard.note(f"done {code}")
     # The modules of OpenCASCADE hold thousands of objects: searching them for garbage takes half a second.
     gc.freeze()

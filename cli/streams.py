@@ -2,6 +2,8 @@
 
 Scripts print, and so do libraries below Python. While a drawing is computed, their output goes to standard error; the
 original standard output is reserved for the result.
+
+Text that a command prints, its help too, goes through `Printed`: a full disk or a closed pipe ends every command alike.
 """
 
 from __future__ import annotations
@@ -10,12 +12,56 @@ import contextlib
 import os
 import sys
 from collections.abc import Iterator
+from typing import Any
 
 from hlr.errors import WriteError
 
 
 class ReaderGoneError(Exception):
     """Nobody reads standard output any more. (click would catch a BrokenPipeError.)"""
+
+
+class Printed:
+    """Standard output for text. Raises WriteError where the system refuses, ReaderGoneError where nobody reads it."""
+
+    def __init__(self, stream: Any) -> None:
+        self._stream = stream
+
+    def write(self, text: str) -> int:
+        """Write text; returns how many characters."""
+        with _told():
+            written: int = self._stream.write(text)
+        return written
+
+    def flush(self) -> None:
+        """Hand over to the system what was written."""
+        with _told():
+            self._stream.flush()
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+
+@contextlib.contextmanager
+def printing() -> Iterator[None]:
+    """Within this block text is printed through `Printed`; at its end all of it is with the system."""
+    if sys.stdout is not None:
+        sys.stdout = Printed(sys.stdout)
+    yield
+    if sys.stdout is not None:
+        sys.stdout.flush()
+
+
+@contextlib.contextmanager
+def _told() -> Iterator[None]:
+    """Say in our own words that standard output cannot be written to."""
+    try:
+        yield
+    except BrokenPipeError as error:
+        raise ReaderGoneError from error
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise WriteError(f"cannot write to standard output: {reason[:1].lower()}{reason[1:]}") from error
 
 
 class Output:
@@ -35,15 +81,10 @@ class Output:
         """Write all of it. Raises WriteError where the system refuses, ReaderGoneError where nobody reads it."""
         if self._descriptor is None:
             raise WriteError("cannot write to standard output: it is closed")
-        try:
+        with _told():
             left = memoryview(data)
             while left:
                 left = left[os.write(self._descriptor, left) :]
-        except BrokenPipeError as error:
-            raise ReaderGoneError from error
-        except OSError as error:
-            reason = error.strerror or str(error)
-            raise WriteError(f"cannot write to standard output: {reason[:1].lower()}{reason[1:]}") from error
 
 
 @contextlib.contextmanager

@@ -152,6 +152,29 @@ def test_a_full_standard_output_is_said(child):
     assert process.stderr.read() == b"hlr: cannot write to standard output: no space left on device.\n"
 
 
+PRINTING = [["--help"], ["draw", "--help"], ["--version"], ["cache", "info"], ["cache", "info", "--json"]]
+"""What is printed as text, not written as a result."""
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+@pytest.mark.parametrize("arguments", PRINTING)
+def test_text_for_a_full_standard_output_is_an_error(arguments):
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run([sys.executable, "-m", "hlr", *arguments], stdout=full, stderr=subprocess.PIPE)
+    assert done.stderr == b"hlr: cannot write to standard output: no space left on device.\n"
+    assert done.returncode == 2
+
+
+@posix
+@pytest.mark.parametrize("arguments", PRINTING)
+def test_text_that_nobody_reads_is_no_error(arguments):
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = subprocess.run([sys.executable, "-m", "hlr", *arguments], stdout=writing, stderr=subprocess.PIPE)
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (-signal.SIGPIPE, b"")
+
+
 @posix
 def test_a_closed_standard_output_is_said(child):
     process = child("draw", "a.step", "-o", "-", stderr=subprocess.PIPE, preexec_fn=lambda: os.close(1))
