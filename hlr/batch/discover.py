@@ -27,11 +27,28 @@ def named(root: Path, pattern: str) -> list[Path]:
     A pattern leaves out what is no model; a name stands for its file, whatever it is. Empty where there is none.
     """
     path = root / pattern
-    if not is_pattern(pattern):
-        return list(models_under(path)) if path.is_dir() else [path] if path.exists() else []
-    base, rest = _split(path)
-    found = base.glob(rest) if rest else ()
-    return sorted(each for each in found if each.is_file() and of_ending(each.suffix) is not None)
+    if not is_pattern(pattern) and path.is_dir():
+        return list(models_under(path))
+    found = files_named(root, pattern)
+    return [each for each in found if of_ending(each.suffix) is not None] if is_pattern(pattern) else found
+
+
+def files_named(root: Path, pattern: str) -> list[Path]:
+    """The files, models or not, that a name or a pattern stands for, sorted: of a folder all under it."""
+    path = root / pattern
+    found: Iterable[Path] = [path]
+    if is_pattern(pattern):
+        base, rest = _split(path)
+        found = base.glob(rest) if rest else ()
+    elif path.is_dir():
+        found = path.rglob("*")
+    return sorted(each for each in found if each.is_file())
+
+
+def takes_parameters(path: Path) -> bool:
+    """Whether a source is a script, whose variables can be set."""
+    reader = of_ending(path.suffix)
+    return reader is not None and "parameters" in reader.takes
 
 
 def models_under(folder: Path) -> Iterator[Path]:

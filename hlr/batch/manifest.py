@@ -34,11 +34,13 @@ class Rule:
     """Some sources, and what is asked of them: a value for each key of the schema, and options of drawings.
 
     where: keys that lead to its table in the manifest.
+    own: the keys of that table; others come from the top.
     """
 
     values: Mapping[str, Any]
     options: Mapping[str, Any]
     where: Where = ()
+    own: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,9 +130,9 @@ def manifest_of(
         _check(table, (_TABLE, number), wrong)
         if "files" not in table:
             raise wrong((_TABLE, number), f"this [[{_TABLE}]] names no files")
-        rules.append(_rule({**top, **table}, (*prefix, _TABLE, number)))
+        rules.append(_rule({**top, **table}, (*prefix, _TABLE, number), table))
     output = top.get("output", KEYS["output"].default)
-    return Manifest(root, output, tuple(rules) or (_rule(top, prefix),), file, text)
+    return Manifest(root, output, tuple(rules) or (_rule(top, prefix, top),), file, text)
 
 
 def _check(table: Mapping[str, Any], where: Where, wrong: Any) -> None:
@@ -151,11 +153,11 @@ def _check(table: Mapping[str, Any], where: Where, wrong: Any) -> None:
                     raise wrong((*where, name), f"there is no format {format!r}: use {formats()}")
 
 
-def _rule(table: Mapping[str, Any], where: Where) -> Rule:
+def _rule(table: Mapping[str, Any], where: Where, own: Mapping[str, Any]) -> Rule:
     values = {name: table.get(name, key.default) for name, key in KEYS.items()}
     # Parameters are a matrix of variants here, and each variant's own values in the options of its job.
     options = {name: value for name, value in table.items() if name not in KEYS}
-    return Rule(values, options, where)
+    return Rule(values, options, where, frozenset(own))
 
 
 def _error(file: Path, text: str, where: Where, message: str) -> OptionError:

@@ -11,7 +11,7 @@ from itertools import product
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from hlr.batch.discover import models_under, named, without
+from hlr.batch.discover import files_named, models_under, named, takes_parameters, without
 from hlr.batch.job import Job
 from hlr.batch.manifest import Manifest, Rule
 from hlr.batch.schema import KEYS, listed
@@ -47,10 +47,14 @@ def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
     jobs: list[Job] = []
     for rule in manifest.rules:
         sources = _sources(manifest, rule, output)
+        if "parameters" in rule.own and not any(map(takes_parameters, sources)):
+            raise manifest.error((*rule.where, "parameters"), "only scripts have parameters, and this names none")
+        depends = _depends(manifest, rule)
         stems = Counter(str(path.with_suffix("")) for path in set(sources))
         for path in sources:
             options = {**rule.options, **({"strict": True} if strict else {})}
-            jobs.extend(_jobs(manifest, rule, path, options, alone=stems[str(path.with_suffix(""))] == 1))
+            alone = stems[str(path.with_suffix(""))] == 1
+            jobs.extend(replace(job, depends=depends) for job in _jobs(manifest, rule, path, options, alone))
     _check_names(manifest, jobs)
     return Plan(manifest, output, tuple(jobs))
 
@@ -70,6 +74,17 @@ def _sources(manifest: Manifest, rule: Rule, output: Path) -> list[Path]:
     return kept
 
 
+def _depends(manifest: Manifest, rule: Rule) -> tuple[str, ...]:
+    """Paths of the files that the sources of a rule depend on besides, seen from the root."""
+    found = []
+    for pattern in listed(rule.values["depends"]):
+        files = files_named(manifest.root, pattern)
+        if not files:
+            raise manifest.error((*rule.where, "depends"), f"{pattern} names no file under {manifest.root}")
+        found += [Path(os.path.relpath(each, manifest.root)).as_posix() for each in files]
+    return tuple(dict.fromkeys(found))
+
+
 def _jobs(manifest: Manifest, rule: Rule, path: Path, options: Mapping[str, Any], alone: bool) -> Iterator[Job]:
     """A job for each variant of a source. alone: no other source of the rule differs in its ending only."""
     values = rule.values
@@ -79,13 +94,9 @@ def _jobs(manifest: Manifest, rule: Rule, path: Path, options: Mapping[str, Any]
     template = values["name"]
     if not alone and template == KEYS["name"].default:
         template = template.replace("{stem}", "{stem}.{ending}")
-    depends = []
-    for pattern in listed(values["depends"]):
-        paths = named(manifest.root, pattern) or [manifest.root / pattern]
-        depends += [Path(os.path.relpath(each, manifest.root)).as_posix() for each in paths]
-    base = Job(root, source, views, formats, (), options, tuple(dict.fromkeys(depends)))
+    base = Job(root, source, views, formats, (), options)
     base = replace(base, time_limit_s=values["time_limit_s"], memory_limit_mb=values["memory_limit_mb"])
-    for variant in _variants(manifest, rule):
+    for variant in _variants(manifest, rule) if takes_parameters(path) else [{}]:
         more = {"parameters": variant} if variant else {}
         names = [
             _filled(manifest, rule, template, _fields(source, view, number, variant))

@@ -70,6 +70,38 @@ def test_each_combination_of_parameters_is_a_variant(tmp_path):
     assert found == {"a.py size=1": ["a_1_1.svg", "a_1_2.svg"]}
 
 
+def test_parameters_are_those_of_the_scripts_among_the_sources(tmp_path):
+    tetrahedron(tmp_path / "a.off")
+    (tmp_path / "b.py").write_text("result = size")
+    size = {"size": [1, 2]}
+    variants = ["b.py, size=1", "b.py, size=2"]
+    assert list(planned(tmp_path, files=["a.off", "b.py"], parameters=size)) == ["a.off", *variants]
+    # At the top they are for all sources that may have some; a table without a script has no use for them.
+    tables = [{"files": "a.off"}, {"files": "b.py"}]
+    assert list(planned(tmp_path, parameters=size, source=tables)) == ["a.off", *variants]
+    with pytest.raises(OptionError, match="only scripts have parameters, and this names none"):
+        planned(tmp_path, source=[{"files": "a.off", "parameters": size}])
+    with pytest.raises(OptionError, match="only scripts have parameters, and this names none"):
+        planned(tmp_path, files="a.off", parameters=size)
+
+
+def test_what_sources_depend_on_may_be_any_files(tmp_path):
+    tetrahedron(tmp_path / "a.off")
+    for name in ("tables/one.csv", "tables/more/two.csv", "look.toml"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+
+    def depends(*patterns):
+        manifest = manifest_of({"files": "a.off", "depends": list(patterns)}, tmp_path)
+        return plan(manifest, tmp_path / "drawings").jobs[0].depends
+
+    assert depends() == ()
+    assert depends("look.toml", "tables/*.csv") == ("look.toml", "tables/one.csv")
+    assert depends("tables", "tables/one.csv") == ("tables/more/two.csv", "tables/one.csv")
+    with pytest.raises(OptionError, match=r"tabels/\*\.csv names no file under"):
+        depends("tabels/*.csv")
+
+
 def test_models_that_differ_in_their_ending_only_have_files_of_their_own(tmp_path):
     tetrahedron(tmp_path / "a.off")
     (tmp_path / "a.stl").touch()
