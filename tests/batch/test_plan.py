@@ -74,7 +74,7 @@ def test_parameters_are_those_of_the_scripts_among_the_sources(tmp_path):
     tetrahedron(tmp_path / "a.off")
     (tmp_path / "b.py").write_text("result = size")
     size = {"size": [1, 2]}
-    variants = ["b.py, size=1", "b.py, size=2"]
+    variants = ["b.py size=1", "b.py size=2"]
     assert list(planned(tmp_path, files=["a.off", "b.py"], parameters=size)) == ["a.off", *variants]
     # At the top they are for all sources that may have some; a table without a script has no use for them.
     tables = [{"files": "a.off"}, {"files": "b.py"}]

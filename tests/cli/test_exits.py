@@ -156,11 +156,15 @@ PRINTING = [["--help"], ["draw", "--help"], ["--version"], ["cache", "info"], ["
 """What is printed as text, not written as a result."""
 
 
+def ended(command, output):
+    return subprocess.run(command, check=False, stdout=output, stderr=subprocess.PIPE, timeout=20)
+
+
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
 @pytest.mark.parametrize("arguments", PRINTING)
 def test_text_for_a_full_standard_output_is_an_error(arguments):
     with open("/dev/full", "wb") as full:
-        done = subprocess.run([sys.executable, "-m", "hlr", *arguments], stdout=full, stderr=subprocess.PIPE)
+        done = ended([sys.executable, "-m", "hlr", *arguments], full)
     assert done.stderr == b"hlr: cannot write to standard output: no space left on device.\n"
     assert done.returncode == 2
 
@@ -170,7 +174,7 @@ def test_text_for_a_full_standard_output_is_an_error(arguments):
 def test_text_that_nobody_reads_is_no_error(arguments):
     reading, writing = os.pipe()
     os.close(reading)
-    done = subprocess.run([sys.executable, "-m", "hlr", *arguments], stdout=writing, stderr=subprocess.PIPE)
+    done = ended([sys.executable, "-m", "hlr", *arguments], writing)
     os.close(writing)
     assert (done.returncode, done.stderr) == (-signal.SIGPIPE, b"")
 

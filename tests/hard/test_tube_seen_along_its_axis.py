@@ -7,6 +7,8 @@ tube nothing may be missing there.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import cadquery as cq
 import numpy as np
 import pytest
@@ -30,7 +32,7 @@ def tube(path: list[tuple[float, float]], size: float) -> cq.Workplane:
 def finely(points: np.ndarray) -> np.ndarray:
     """More points on the same polyline."""
     shares = np.linspace(0.0, 1.0, 50, endpoint=False)[:, None]
-    return np.vstack([a + shares * (b - a) for a, b in zip(points[:-1], points[1:], strict=True)] + [points[-1:]])
+    return np.vstack([a + shares * (b - a) for a, b in pairwise(points)] + [points[-1:]])
 
 
 @pytest.mark.parametrize("size", [0.01, 1.0, 2000.0])
