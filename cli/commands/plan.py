@@ -6,6 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from hlr.errors import OptionError
+
+from ..document_pages import names_a_page
 from ..guard import start
 from ..meter import meter
 from ..streams import result_only
@@ -34,6 +37,8 @@ def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **
     step has cost.
     """
     names_of(views, chosen["eye"])
+    if names_a_page(source, page := chosen["page"]):
+        raise OptionError(f"{page} is no sheet, and pages of a document have no plan: hlr draw draws them")
     views = views or ("iso",)
     request = request_of(**chosen)
     start(source)

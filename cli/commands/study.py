@@ -137,7 +137,8 @@ def _write(targets: dict[str, Target], found: Study) -> None:
     if not any(point.failure is None for point in found.points):
         if not found.points:
             return
-        raise SourceError(f"{found.source} cannot be studied: no point was finished")
+        why = next((point.failure for point in found.points if point.failure is not None), "no point was finished")
+        raise SourceError(f"{found.source} cannot be studied: {why}")
     made = {
         "study.csv": table.comma_separated(found).encode("utf-8"),
         "study.md": report.markdown(found, ("error.png", "stages.png")).encode("utf-8"),

@@ -70,7 +70,12 @@ def _sources(manifest: Manifest, rule: Rule, output: Path) -> list[Path]:
     outside = [path for path in dict.fromkeys(found) if not path.is_relative_to(output)]
     kept = without(outside, listed(rule.values["exclude"]), root)
     if not kept:
-        raise manifest.error((*rule.where, "files"), f"there is no model under {root}")
+        why = f"there is no model under {root}"
+        if found and not outside:
+            why = f"all models lie in the folder of outputs, {output}: give another one"
+        elif outside:
+            why = "all models are left out by exclude"
+        raise manifest.error((*rule.where, "files"), why)
     return kept
 
 

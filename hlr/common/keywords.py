@@ -25,6 +25,16 @@ def record_of(kind: type[Record], keywords: Mapping[str, Any], function: str) ->
     return kind(**keywords)
 
 
+def expect_record(kind: type[Record], given: Record | None, function: str) -> Record:
+    """The record that was given, or one of the defaults. Raises OptionError for anything else, such as a dictionary."""
+    if given is None:
+        return kind()
+    if not isinstance(given, kind):
+        name = f"hlr.{kind.__name__}"
+        raise OptionError(f"{function}() needs {name} for its options, not {type(given).__name__}: write {name}(...)")
+    return given
+
+
 def shown(kind: type) -> Callable[[Function], Function]:
     """Let `help` show the fields of `kind` in place of a function's **keywords."""
 

@@ -32,7 +32,7 @@ def check_model(path: Path) -> None:
 
 def check_source(paths: Iterable[Path], source: str | os.PathLike[str]) -> None:
     """Raise WriteError where one of `paths` is the source, however it is spelled or linked, or a file that it names."""
-    originals = [(Path(source), "the model itself"), *((side, "a file of the model") for side in _sides(Path(source)))]
+    originals = [(Path(source), "the source"), *((side, "a file of the model") for side in _sides(Path(source)))]
     for path in paths:
         for original, what in originals:
             if _same(path, original):

@@ -11,6 +11,7 @@ from typing import Any
 from hlr import _kernel
 from hlr.common.clock import lap
 from hlr.common.colors import parse_color
+from hlr.common.keywords import expect_record
 from hlr.common.threads import at_most
 from hlr.common.types import Floats, Progress
 from hlr.drawing.drawing import Drawing, DrawnPart
@@ -64,7 +65,7 @@ def preview_views(
     >>> hlr.preview_views("part.step", ["front", "top"], hlr.PreviewOptions(size=(320, 240)))
     [<Picture part.step, front, 320x240 pixels>, <Picture part.step, top, 320x240 pixels>]
     """
-    options = checked_preview(options or PreviewOptions())
+    options = checked_preview(expect_record(PreviewOptions, options, "preview_views"))
     views = checked_views(views, options)
     background = parse_color(options.background)
     if not views:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, Unpack
 
-from hlr.common.keywords import record_of, shown
+from hlr.common.keywords import expect_record, record_of, shown
 from hlr.common.threads import at_most
 from hlr.pipeline.draw import draw_views as drawn_once
 from hlr.request.check import checked, checked_views
@@ -42,7 +42,7 @@ def draw_views(
     >>> top
     <Drawing part.step, top, 1:2, 5 visible and 0 hidden lines>
     """
-    options = options or Options()
+    options = expect_record(Options, options, "draw_views")
     if not options.report and options.within is None:
         return drawn_once(source, views, options, progress, noted)  # which checks what is asked for
     started = perf_counter()

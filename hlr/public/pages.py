@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from hlr.common.keywords import expect_record
 from hlr.common.threads import at_most
 from hlr.drawing.drawing import Drawing
 from hlr.errors import OptionError, SourceError
@@ -72,7 +73,7 @@ def pages_with_views(
     progress: Progress | None = None,
 ) -> list[tuple[Drawing, list[PlacedView]]]:
     """The same, each with its views as they were drawn."""
-    options = _page_options(options or Options())
+    options = _page_options(expect_record(Options, options, "draw_pages"))
     path = _path(source)
     with at_most(options.threads), opened_document(path) as document:
         wanted = _chosen(pages_of(document, path), pages, path)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from hlr.common.keywords import expect_record
 from hlr.common.threads import at_most
 from hlr.common.types import Progress
 from hlr.drawing.line import Bounds
@@ -40,7 +41,7 @@ def plan_views(
     >>> reasons["outlines"]
     '1 curved face may show one'
     """
-    options = checked(options or Options())
+    options = checked(expect_record(Options, options, "plan_views"))
     views = checked_views(views, options)
     if not views:
         return []

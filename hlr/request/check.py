@@ -55,9 +55,8 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
         if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, Integral) and value in (0, 1)):
             raise OptionError(f"{name} is yes or no: give True or False, not {value!r}")
     options = _with_size(options)
-    accuracy = options.accuracy
-    if accuracy is not None and not (is_finite(accuracy) and accuracy > 0.0):
-        raise OptionError(f"accuracy {_shown(accuracy)} mm cannot be kept: give a positive length, such as 0.05")
+    if options.accuracy is not None:
+        check_accuracy(options.accuracy)
     within = options.within
     if within is not None and not (is_finite(within) and within > 0.0):
         raise OptionError(f"within needs a positive number of seconds, not {_shown(within)}")
@@ -119,6 +118,12 @@ def _check_page(page: Any) -> None:
         papers(page)
     except ValueError as error:
         raise OptionError(str(error)) from None
+
+
+def check_accuracy(accuracy: float) -> None:
+    """Raises OptionError unless the accuracy is a positive length."""
+    if not (is_finite(accuracy) and accuracy > 0.0):
+        raise OptionError(f"accuracy {_shown(accuracy)} mm cannot be kept: give a positive length, such as 0.05")
 
 
 def check_crease(crease: float) -> None:

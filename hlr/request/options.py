@@ -77,7 +77,8 @@ class Options:
     annotations  draw the faces of annotation in STEP files: those that the file hides, or calls supplemental geometry
     hidden_objects  draw also the objects that a FreeCAD document hides
     report       measure what accuracy was reached: `Drawing.reached`; takes several times as long as the drawing
-    within       seconds: draw coarsely first, then finer while time lasts, though not finer than `accuracy`
+    within       seconds: draw coarsely first, then finer while time lasts, though not finer than `accuracy`; where
+                 none is given, than a 25th of the default
 
     >>> import hlr
     >>> options = hlr.Options(scale=2.0, hidden=False)

@@ -59,7 +59,8 @@ def open_selected(thing: Any, options: PartSelection) -> Source:
     kept = set(names) if not only else _matching(only, names, "only")
     kept -= _matching(hide, names, "hide")
     if not kept:
-        raise OptionError(f"Of {source.name} no part would be left: hide fewer of its {len(names)} parts.")
+        fewer = "do not hide its only part" if len(names) == 1 else f"hide fewer of its {len(names)} parts"
+        raise OptionError(f"Of {source.name} no part would be left: {fewer}.")
     return source.of_parts(kept, (only, hide))
 
 

@@ -55,6 +55,10 @@ def test_patterns_leave_out_what_is_no_model_and_names_do_not(tmp_path):
         planned(tmp_path, files="prts/*.step")
     with pytest.raises(OptionError, match="there is no model under"):
         planned(tmp_path / "parts/deep/none")
+    with pytest.raises(OptionError, match="all models are left out by exclude"):
+        planned(tmp_path, files="**/*.off", exclude="*.off")
+    with pytest.raises(OptionError, match=r"all models lie in the folder of outputs, .*parts: give another one"):
+        plan(manifest_of({"files": "parts"}, tmp_path), tmp_path / "parts")
 
 
 def test_each_combination_of_parameters_is_a_variant(tmp_path):

@@ -35,6 +35,14 @@ def test_several_views_are_named(hlr_real):
     assert done.out.startswith("front\n") and "\n\ntop\n" in done.out
 
 
+def test_a_page_of_a_document_has_no_plan(hlr_real):
+    done = hlr_real("plan", MODEL.parents[3] / "data/trolley_assembly.FCStd", "--page", "Page")
+    assert (done.code, done.err) == (
+        2,
+        "hlr: Page is no sheet, and pages of a document have no plan: hlr draw draws them.\n",
+    )
+
+
 @pytest.mark.parametrize("model", ["nowhere.step", "."])
 def test_refusals(hlr_real, model):
     done = hlr_real("plan", model)

@@ -161,6 +161,7 @@ NEIGHBOUR = {
         ("words.stl", b"solid\nfacet\nouter loop\nvertex a 0 0\nendsolid\n", 'line 4 has "a" for a coordinate'),
         ("corner.obj", b"v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n", "line 4 names vertex 9, and there are 3"),
         ("list.ply", ply(b"ascii", 1, b"0 0 0\n4000000000 0 1\n"), "last row is not whole"),
+        ("corners.ply", ply(b"ascii", 3, b"0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"), "no triangle whose corners all exist"),
         ("none.stl", b"solid x\nendsolid x\n", "no triangles"),
         ("nan.stl", bytes(80) + struct.pack("<I12fH", 1, *[float("nan")] * 12, 0), "coordinates are all numbers"),
         ("huge.ply", ply(b"binary_little_endian", 2_000_000_000, bytes(99)), "announces at least 24000000001 bytes"),

@@ -11,6 +11,7 @@ from hlr.common.types import Progress
 from hlr.errors import OptionError, SourceError
 from hlr.lab.study.job import ACCURACIES, EXACT, HLR, PIXELS, POLY, PREDICATES, ZBUFFER, Job, Point, point_of
 from hlr.lab.study.process import answer
+from hlr.request.check import check_accuracy
 from hlr.request.options import Parameter, View
 
 A4 = (277.0, 190.0)
@@ -92,6 +93,8 @@ def study(  # noqa: PLR0913 - one for each thing a user may ask
     scope = scope or Scope()
     if not limit > 0.0 or runs < 1:
         raise OptionError("a study needs a positive limit of seconds, and at least one run")
+    for accuracy in (*scope.accuracies, *scope.predicates):
+        check_accuracy(accuracy)
     out = into if into is not None else Study(source, view, limit, runs)
     told = progress or (lambda _stage, _done: None)
     with tempfile.TemporaryDirectory(prefix="hlr-study-") as folder:

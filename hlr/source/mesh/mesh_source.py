@@ -83,6 +83,8 @@ class MeshSource:
     def _refusal(self, cleaned: list[CleanMesh]) -> str:
         if any(mesh.not_finite for mesh in cleaned):
             return f"{self._name} holds no triangle whose coordinates are all numbers: export it again."
+        if any(mesh.out_of_range for mesh in cleaned):
+            return f"{self._name} holds no triangle whose corners all exist: export it again."
         if any(mesh.degenerate for mesh in cleaned):
             return f"{self._name} holds only degenerate triangles: there is nothing to draw."
         return f"{self._name} holds no triangles: there is nothing to draw."
