@@ -14,6 +14,9 @@ import hlr
 from hlr.request.directions import NAMED
 from hlr.request.options import Options, ViewName, Wishes
 from hlr.request.picture_effects import PreviewOptions, PreviewWishes
+from support.models import box
+
+BOX = box((10, 20, 30))
 
 
 def test_all_public_names_are_listed_and_there():
@@ -116,3 +119,17 @@ def test_a_type_checker_takes_what_is_right_and_refuses_what_is_wrong(tmp_path):
     assert {lines[number - 1] for number in told if number <= right} == set(), done.stdout + done.stderr
     for number, (line, message) in enumerate(REFUSED.items(), right + 1):
         assert message.replace("\\", "") in told.get(number, ""), f"{line}: {told.get(number)}\n{done.stderr}"
+
+
+@pytest.mark.parametrize(
+    ("drawn", "kind"),
+    [
+        (lambda options: hlr.draw_views(BOX, ["front"], options), "Options"),
+        (lambda options: hlr.plan_views(BOX, ["front"], options), "Options"),
+        (lambda options: hlr.preview_views(BOX, ["front"], options), "PreviewOptions"),
+    ],
+)
+def test_options_that_are_no_record(drawn, kind):
+    with pytest.raises(hlr.OptionError, match=f"needs hlr.{kind} for its options, not dict: write hlr.{kind}"):
+        drawn({"scale": 1.0})
+    assert len(drawn(None)) == 1

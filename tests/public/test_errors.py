@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import hlr
 from hlr import HlrError, Options, Perspective
-from hlr.errors import OptionError, SourceError
+from hlr.errors import SourceError
 from support.models import box
 from support.refusals import checked, drawn_or_refused, is_a_model, verdict
 
@@ -50,20 +50,6 @@ def test_any_numbers_as_options(**options):
     # So small a size that the scale becomes zero has a test of its own.
     assume(options["fit"] is None or not any(0 < f < 1e-290 for f in options["fit"]))
     checked(BOX, view, right=verdict(view, **options), **options)
-
-
-@pytest.mark.parametrize(
-    ("drawn", "kind"),
-    [
-        (lambda options: hlr.draw_views(BOX, ["front"], options), "Options"),
-        (lambda options: hlr.plan_views(BOX, ["front"], options), "Options"),
-        (lambda options: hlr.preview_views(BOX, ["front"], options), "PreviewOptions"),
-    ],
-)
-def test_options_that_are_no_record(drawn, kind):
-    with pytest.raises(OptionError, match=f"needs hlr.{kind} for its options, not dict: write hlr.{kind}"):
-        drawn({"scale": 1.0})
-    assert len(drawn(None)) == 1
 
 
 def test_a_size_so_small_that_the_scale_is_zero():
