@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 from hlr.errors import OptionError
 from hlr.request.options import Parameter
@@ -56,21 +56,36 @@ def open_selected(thing: Any, options: PartSelection) -> Source:
     if not (only or hide) or getattr(source, "choice", None) == (only, hide):
         return source
     names = source.names()
-    kept = set(names) if not only else _matching(only, names, "only")
-    kept -= _matching(hide, names, "hide")
+    above = source.assemblies() if isinstance(source, _InAssemblies) else {}
+    kept = set(names) if not only else _matching(only, names, above, "only")
+    kept -= _matching(hide, names, above, "hide")
     if not kept:
         fewer = "do not hide its only part" if len(names) == 1 else f"hide fewer of its {len(names)} parts"
         raise OptionError(f"Of {source.name} no part would be left: {fewer}.")
     return source.of_parts(kept, (only, hide))
 
 
-def _matching(patterns: Sequence[str], names: Sequence[str], option: str) -> set[str]:
-    """Names that match any of the patterns. Raises OptionError for a pattern that matches none."""
+@runtime_checkable
+class _InAssemblies(Protocol):
+    """A source whose parts are in assemblies that their names do not say."""
+
+    def assemblies(self) -> Mapping[str, Sequence[str]]:
+        """By the names of parts, the assemblies that they are in."""
+
+
+def _matching(
+    patterns: Sequence[str], names: Sequence[str], above: Mapping[str, Sequence[str]], option: str
+) -> set[str]:
+    """Names of parts that match any of the patterns, or are in an assembly that does.
+
+    above: the assemblies of each part. Raises OptionError for a pattern that matches none.
+    """
     found: set[str] = set()
     for pattern in patterns:
-        some = {name for name in names if matches(name, pattern)}
+        some = {name for name in names if any(matches(each, pattern) for each in (name, *above.get(name, ())))}
         if not some:
-            raise OptionError(f'{option} "{pattern}" matches no part: {_suggestion(pattern, names)}.')
+            known = list(dict.fromkeys((*names, *(each for assemblies in above.values() for each in assemblies))))
+            raise OptionError(f'{option} "{pattern}" matches no part: {_suggestion(pattern, known)}.')
         found |= some
     return found
 

@@ -1,5 +1,7 @@
 """Only some parts of a source: by name, by pattern, by assembly; in every kind of source and every kind of picture."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import trimesh
@@ -62,6 +64,24 @@ def test_only_and_hide(kind):
     if kind == "brep":
         assert parts(source, only=["sub"]) == bolts
         assert parts(source, only=["sub"], hide=["sub/bolt "]) == ["sub/bolt"]
+
+
+AS1 = Path(__file__).parents[1] / "data/as1-oc-214.stp"
+
+
+@pytest.mark.parametrize("cached", [False, True])
+def test_assemblies_of_a_step_file(cached, tmp_path, monkeypatch):
+    """The names of its parts do not say them: they go by the product, or by one place in the assembly above."""
+    if cached:
+        monkeypatch.setenv("HLR_CACHE", str(tmp_path))
+        open_source(AS1)
+    assert parts(AS1, only=["rod-assembly"]) == ["nut", "nut:2", "rod"]
+    both = parts(AS1, only=["l-bracket-assembly"])
+    one, other = (parts(AS1, only=[f"L-bracket-assembly_{number}"]) for number in (1, 2))
+    assert len(one) == len(other) == 7 and set(one) & set(other) == set() and set(one) | set(other) == set(both)
+    assert parts(AS1, hide=["*-assembly"]) == ["plate"]
+    with pytest.raises(OptionError, match='only "rod-asembly" matches no part: perhaps "rod-assembly"'):
+        parts(AS1, only=["rod-asembly"])
 
 
 @pytest.mark.parametrize("kind", ["mesh", "brep"])

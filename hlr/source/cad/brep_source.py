@@ -66,6 +66,10 @@ class BrepSource:
         """Name of every part."""
         return [part.name for part in self._parts]
 
+    def assemblies(self) -> dict[str, tuple[str, ...]]:
+        """By the names of parts, the assemblies that they are in, where their own names do not say them."""
+        return {part.name: part.above for part in self._parts if part.above}
+
     def infos(self) -> list[PartInfo]:
         """Numbers of faces, edges and solids of every part."""
         return [PartInfo(part.name, *self._prototypes.counts[part.prototype].tolist()) for part in self._parts]

@@ -1,7 +1,8 @@
 """B-rep files through the cache: a file that is drawn again is not read again, and OpenCASCADE is not needed.
 
 The JSON of an entry (`hlr.cache.entry`) has the numbers of prototypes and coloured faces, the notes, and for each part
-[name, product, colour or null, prototype, transparent, colour and opacity or null]. Its data are, little-endian:
+[name, product, colour or null, prototype, transparent, colour and opacity or null, assemblies]. Its data are,
+little-endian:
 
     transforms   (parts, 4, 4)        f8   placement of each part
     boxes        (prototypes, 2, 3)   f8   as of `hlr.source.cad.prototypes.Prototypes`
@@ -85,7 +86,7 @@ def to_entry(source: BrepSource) -> tuple[dict[str, Any], list[bytes]]:
         "faces": len(painted),
         "notes": [[note.code, note.text] for note in source.notes],
         "parts": [
-            [part.name, part.product, part.color, part.prototype, part.transparent, look.whole]
+            [part.name, part.product, part.color, part.prototype, part.transparent, look.whole, part.above]
             for part, look in zip(source.parts, looks, strict=True)
         ],
     }
@@ -141,8 +142,9 @@ def _checked_source(name: str, kind: str, facts: dict[str, Any], data: memoryvie
     _require(prototypes.model.faces_of_parts == counts[:, 0].tolist() and bool((counts >= 0).all()))
 
     def part(number: int) -> Part:
-        own, product, color, prototype, transparent, whole = parts[number]
-        _require(all(isinstance(text, str) for text in (own, product)) and isinstance(transparent, bool))
+        own, product, color, prototype, transparent, whole, above = parts[number]
+        _require(isinstance(above, list) and all(isinstance(text, str) for text in (own, product, *above)))
+        _require(isinstance(transparent, bool))
         _require(0 <= _index(prototype) < n_prototypes)
         _require(counts[prototype, 0] > 0)
         mine = slice(start[number], start[number + 1])
@@ -150,7 +152,9 @@ def _checked_source(name: str, kind: str, facts: dict[str, Any], data: memoryvie
         _require(all(0 <= face < counts[prototype, 0] for face in numbers))
         rgba: list[Rgba] = [(r, g, b, a) for r, g, b, a in colors[mine].tolist()]
         look = Appearance(_numbers(whole, 4), dict(zip(numbers, rgba, strict=True)))
-        found = Part(own, product, _numbers(color, 3), prototype, transforms[number], transparent, Appearance)
+        found = Part(
+            own, product, _numbers(color, 3), prototype, transforms[number], transparent, Appearance, tuple(above)
+        )
         return with_appearance(found, look)
 
     _require(all(code in CODES and isinstance(text, str) for code, text in facts["notes"]))

@@ -33,7 +33,7 @@ def cut_away(leaves: Sequence[Leaf], origin: Floats, normal: Floats) -> list[Lea
         pieces = [piece for piece in cut if piece is not None]
         if pieces:
             shape = pieces[0] if len(pieces) == 1 else make_compound(pieces)
-            found.append(Leaf(shape, leaf.name, leaf.color, opacity=leaf.opacity))
+            found.append(Leaf(shape, leaf.name, leaf.color, opacity=leaf.opacity, above=leaf.above))
     return found
 
 

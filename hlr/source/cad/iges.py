@@ -81,4 +81,4 @@ def _sew_faces(leaf: Leaf) -> Leaf:
             if key in leaf.opacities:
                 opacities[sewn_face.TShape()] = leaf.opacities[key]
     placed = sewn.Moved(leaf.shape.Location(), False)
-    return Leaf(placed, leaf.name, leaf.color, colors, leaf.opacity, opacities)
+    return Leaf(placed, leaf.name, leaf.color, colors, leaf.opacity, opacities, leaf.above)

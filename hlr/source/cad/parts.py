@@ -21,6 +21,7 @@ class Leaf:
     shape      with its placement: a TopoDS_Shape, or a `hlr.source.cad.kernel_shapes.KernelShape`
     color      of the leaf; opacity: of that colour, 0 to 1
     colors     of solids and faces, by what underlies them, where a file has them; opacities: of those that have one
+    above      names of the assemblies that it is in, where its own name does not say them
     """
 
     shape: Any
@@ -29,6 +30,7 @@ class Leaf:
     colors: dict[Any, Color] = field(default_factory=dict)
     opacity: float = 1.0
     opacities: dict[Any, float] = field(default_factory=dict)
+    above: tuple[str, ...] = ()
 
 
 @dataclass(slots=True)
@@ -41,6 +43,7 @@ class Part:
     transform    (4, 4) placement
     transparent  some of it may be transparent
     appearance   returns its colours; they are gathered only when asked for
+    above        as of its leaf
     """
 
     name: str
@@ -50,6 +53,7 @@ class Part:
     transform: Floats
     transparent: bool
     appearance: Callable[[], Appearance]
+    above: tuple[str, ...] = ()
 
 
 class PartCollector:
@@ -92,6 +96,7 @@ class PartCollector:
                 transform=transform,
                 transparent=leaf.opacity < 1.0 or bool(leaf.opacities),
                 appearance=partial(_appearance, leaf, piece.shape, shapes),
+                above=leaf.above,
             )
             for (leaf, name, piece, _), transform in zip(placed, transforms, strict=True)
         ]

@@ -93,7 +93,7 @@ class _AssemblyTree:
         self._annotation, self._left_out = annotation, 0
         self.leaves, self.notes = [], []
         for i in range(1, free.Length() + 1):
-            self._visit(free.Value(i), TopLoc_Location(), None, fallback, [])
+            self._visit(free.Value(i), TopLoc_Location(), None, fallback, [], ())
         if not self._left_out:
             return
         if any(sub_shapes(leaf.shape, Kind.TopAbs_FACE) for leaf in self.leaves):
@@ -101,7 +101,16 @@ class _AssemblyTree:
         else:
             self.walk(fallback)
 
-    def _visit(self, label: Any, place: Any, inherited: Rgba | None, fallback: str, above: list[Any]) -> None:
+    def _visit(
+        self,
+        label: Any,
+        place: Any,
+        inherited: Rgba | None,
+        fallback: str,
+        above: list[Any],
+        assemblies: tuple[str, ...],
+    ) -> None:
+        """Collect the leaves of a label. above: labels on the way to it; assemblies: their names."""
         from OCP.TDF import TDF_Label
 
         product, color = label, self._color(label)
@@ -116,8 +125,10 @@ class _AssemblyTree:
         if self.shapes.IsAssembly_s(product) and len(above) < MAX_DEPTH:
             children = new_collection("labels")
             self.shapes.GetComponents_s(product, children)
+            # The product may be known by its own name, or by that of this place in the assembly.
+            names = tuple(dict.fromkeys((*assemblies, *filter(None, (_name(product), _name(label))))))
             for i in range(1, children.Length() + 1):
-                self._visit(children.Value(i), place, color, name, path)
+                self._visit(children.Value(i), place, color, name, path, names)
             return
         shape = self.shapes.GetShape_s(product)
         if shape is None or shape.IsNull():
@@ -130,7 +141,7 @@ class _AssemblyTree:
                 return
         # A free shape has its own placement; that of a product is in the reference to it.
         colors, opacities = self._sub_shape_colors(product)
-        leaf = Leaf(shape.Moved(place, False), name, colors=colors, opacities=opacities)
+        leaf = Leaf(shape.Moved(place, False), name, colors=colors, opacities=opacities, above=assemblies)
         if color is not None:
             leaf.color, leaf.opacity = color[:3], color[3]
         self.leaves.append(leaf)
