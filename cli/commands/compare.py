@@ -56,7 +56,8 @@ _MOST_ROWS = 20
     "--view",
     type=ViewName(),
     metavar="NAME|X,Y,Z",
-    help="Of the model that is A or B: a name or a direction. Default: the named view that the other side shows.",
+    help="Of the model that is A or B: a name or a direction. Default: the view that the other side states, else the "
+    "named one that it shows.",
 )
 @click.option(
     "--scale",

@@ -57,7 +57,8 @@ def compare(
                   "similarity": it is turned by quarters, mirrored and scaled as well; "auto": "off" for two drawings
                   of hlr, else "similarity"
     page          name or label of the page of a FreeCAD document (.FCStd) that is a or b; "Page/View": one view of it
-    view          of the model, as of `hlr.draw`; None: the named view that the other side shows, which is found
+    view          of the model, as of `hlr.draw`; None: the view that the other side states, or else the named one that
+                  it shows, which is found
     scale         paper to model, of the drawing of another program; None: it is found
 
     A model is drawn at the scale of the other side, with the lines that it has, hidden or smooth ones for example.

@@ -177,6 +177,8 @@ def _camera(drawing: Drawing) -> dict[str, str]:
     }
     if view.eye is not None:
         fields["eye"] = _vector(view.eye)
+    if view.target is not None:
+        fields["target"] = _vector(view.target)
     return fields | {"scale": ratio(drawing.scale), "origin": _vector(drawing.origin), "unit": f"{drawing.unit:.9g}"}
 
 

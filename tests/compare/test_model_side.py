@@ -1,5 +1,7 @@
 """A model as a side: drawn as the other side shows it, in the view that is said or found."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -31,6 +33,43 @@ def test_the_view_is_found(view, model, tmp_path):
     found = compare(drawn.save(tmp_path / "a.json"), model)
     assert (found.view_found, found.same) == (view, True), found
     assert found.summary.endswith(f"; the view is {view}") and found.to_dict()["view_found"] == view
+
+
+STATED = {
+    "a direction": {"view": (1, 2, 0.5)},
+    "turned on paper": {"view": "front", "up": (1, 0, 1)},
+    "in perspective": {"view": "iso", "perspective": hlr.Perspective()},
+    "from an eye": {"perspective": hlr.Perspective(eye=(60, 90, 50), target=(3, 2, 1))},
+}
+
+
+@pytest.mark.parametrize("ending", ["svg", "json"])
+@pytest.mark.parametrize("how", STATED)
+def test_the_view_that_a_drawing_states_is_drawn(how, ending, model, tmp_path):
+    """Also one that has no name, which nothing but the drawing tells."""
+    drawn = hlr.draw(model, **STATED[how], scale=1.5)
+    path = drawn.save(tmp_path / f"a.{ending}")
+    found = compare(path, model)
+    assert found.same and found.view_found == drawn.view.name
+    assert not compare(path, step().apply_scale(1.1)).same
+
+
+def test_a_view_is_stated_in_the_axes_of_the_model(tmp_path):
+    """glTF is in metres, and y is up."""
+    path = tmp_path / "step.glb"
+    step().apply_transform(np.diag([1e-3, 1e-3, 1e-3, 1])).export(path)
+    for number, options in enumerate(STATED.values()):
+        drawn = hlr.draw(path, **options, scale=1)
+        assert compare(drawn.save(tmp_path / f"{number}.svg"), path).same
+
+
+@pytest.mark.parametrize("wrong", ["0 0 0", "nan 0 1", "1 2", "a b c"])
+def test_a_view_that_is_none_is_refused(wrong, model, tmp_path):
+    path = hlr.draw(model, view=(1, 2, 3)).save(tmp_path / "a.svg")
+    text = path.read_text()
+    path.write_text(re.sub(r' direction="[^"]*"', f' direction="{wrong}"', text, count=1))
+    with pytest.raises(SourceError, match="damaged"):
+        compare(path, model)
 
 
 @pytest.mark.parametrize("view", ["left", "iso-ne"])

@@ -10,6 +10,7 @@ import numpy as np
 from hlr.compare.lines.pieces import Floats, Index, Pieces, with_ways
 from hlr.drawing.chords import numbered
 from hlr.errors import SourceError
+from hlr.request.options import Vector
 
 CHORD_SHARE = 0.05
 """Share of the tolerance by which a chord may lie off its curve."""
@@ -35,6 +36,21 @@ class Trait:
 
 
 @dataclass(frozen=True, slots=True)
+class Seen:
+    """How a model was seen, in its own coordinates.
+
+    direction   from the object toward the viewer
+    eye, target  in perspective
+    """
+
+    name: str
+    direction: Vector
+    up: Vector
+    eye: Vector | None = None
+    target: Vector | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class About:
     """What is known of a drawing besides its lines.
 
@@ -43,7 +59,8 @@ class About:
     views     names of the views of a page; empty: one view
     foreign   whether another program drew it
     left_out  what of the file is no line of the drawing, counted
-    view_found  the view of a model, where it was not said and was found by the other side's lines
+    seen      how its model was seen; None: the drawing does not say it
+    view_found  the view of a model, where it was not said: the one that the other side shows
     """
 
     parts: tuple[str, ...]
@@ -51,6 +68,7 @@ class About:
     views: tuple[str, ...] = ()
     foreign: bool = False
     left_out: dict[str, int] = field(default_factory=dict)
+    seen: Seen | None = None
     view_found: str | None = None
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from hlr.compare.lines.sketch import About, Sketch, Trait
 from hlr.compare.lines.views import views_of_parts
+from hlr.compare.reading.camera import seen_in
 from hlr.compare.reading.path_data import add_path
 from hlr.compare.reading.svg_elements import SVG
 from hlr.request.scale import scale_of
@@ -22,12 +23,13 @@ _TURN = re.compile(r"rotate\((\S+) \S+ \S+\)")
 
 
 def about_ours(root: Element) -> About | None:
-    """What the file says besides its lines; None where it is no drawing of hlr."""
+    """What the file says besides its lines; None where it is no drawing of hlr. Raises ValueError if damaged."""
     ours = root.find(f"{SVG}metadata/{_OURS}drawing")
     if ours is None:
         return None
     parts, views = (tuple(each.get("name", "") for each in ours.iter(f"{_OURS}{tag}")) for tag in ("part", "view"))
-    return About(parts, scale_of(ours.get("scale", "")), views)
+    how = None if views else seen_in(ours.get("view"), ours.attrib)
+    return About(parts, scale_of(ours.get("scale", "")), views, seen=how)
 
 
 def read_ours(root: Element, about: About, sketch: Sketch) -> None:

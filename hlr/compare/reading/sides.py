@@ -13,6 +13,7 @@ import numpy as np
 from hlr.compare.lines.pieces import Floats, Pieces
 from hlr.compare.lines.sketch import About, Sketch, Trait
 from hlr.compare.lines.views import views_of_parts
+from hlr.compare.reading.camera import seen
 from hlr.compare.reading.svg import read_svg
 from hlr.drawing.curve import Arc, raised
 from hlr.drawing.drawing import Drawing
@@ -129,7 +130,9 @@ def _read_drawing(drawing: Drawing, sketch: Sketch) -> About:
             points = [(x, y) for x, y in (curve if curve.degree == 3 else raised(curve)).points.tolist()]
             for k in range(0, len(points) - 1, 3):
                 sketch.cubic(*points[k : k + 4])
-    return About(parts, None if drawing.sheet is not None else drawing.scale, views)
+    if drawing.sheet is not None:
+        return About(parts, None, views)
+    return About(parts, drawing.scale, views, seen=seen(drawing.view))
 
 
 def _read_dxf(path: Path, sketch: Sketch) -> About:
