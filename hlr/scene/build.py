@@ -9,6 +9,7 @@ import numpy as np
 
 from hlr import _kernel
 from hlr._kernel import MeshFacts, MeshScene
+from hlr.common.types import Floats
 from hlr.errors import SourceError
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
@@ -48,7 +49,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         reliable = reliable_normals(mesh, points, tables.triangles, found.triangle_part, tables.precision)
         turned = found.turned
         facets = reliable.normals if turned is None else np.where(turned[:, None], -reliable.normals, reliable.normals)
-        crease_kind = creases(mesh, reliable.fold, edge_part, ~brep, crease, points)
+        crease_kind = creases(mesh, reliable.fold, edge_part, ~brep, crease, points, _sizes(found, len(brep)))
         chains = merge_chains(chains, crease_chains(points, edges, crease_kind, edge_part))
         kind = kind.copy()
         np.copyto(kind[: len(crease_kind)], crease_kind, where=crease_kind != INTERIOR)
@@ -158,6 +159,15 @@ def _facts(whole: PartMeshes) -> MeshFacts:
             f"the tessellation has coordinates that are not finite or beyond {LARGEST_COORDINATE:g}: repair the model"
         )
     return whole.tables.facts()
+
+
+def _sizes(found: MeshScene, parts: int) -> Floats:
+    """(p,) the diagonal of each part's box; 0 where it has no triangles."""
+    low, high = np.full((parts, 3), np.inf), np.full((parts, 3), -np.inf)
+    np.minimum.at(low, found.group_part, found.low)
+    np.maximum.at(high, found.group_part, found.high)
+    span = np.where(high >= low, high - low, 0.0)
+    return np.asarray(np.sqrt((span * span).sum(axis=1)))
 
 
 def _source_chains(found: MeshScene) -> Chains:

@@ -42,15 +42,30 @@ parts of fourteen or more.
 """
 
 
-def creases(mesh: MeshFacts, fold: Floats, edge_part: Ints, bare: Bools, crease: float, points: Floats) -> Kinds:
+LONG_EDGE = 0.2
+"""Of the size of its part: an edge at least this long is no noise of a scan, whose edges are short.
+
+A crease of a part that was meshed coarsely may be a single edge, clear nowhere: it is drawn on all sides of the part.
+"""
+
+
+def creases(
+    mesh: MeshFacts, fold: Floats, edge_part: Ints, bare: Bools, crease: float, points: Floats, sizes: Floats
+) -> Kinds:
     """(e,) EdgeClass SHARP or BOUNDARY, or 255, for the edges of bare meshes, from the fold angle (degrees).
 
-    fold (e,): its cosines, as far as the coordinates support any; edge_part (e,); bare: per part.
+    fold (e,): its cosines, as far as the coordinates support any; edge_part (e,); bare, sizes: per part, the latter the
+    diagonal of its box.
     """
     sharp, near_fold = _cosine(crease - SLACK), _cosine(NEAR_FOLD * crease)
     kind, near = _kernel.edge_kinds(mesh.offsets, fold, edge_part, bare, sharp, near_fold)
     kind[_gap_edges(kind, mesh.edges, near, points)] = EdgeClass.SHARP
-    kind[_noise_edges(kind, mesh.edges, fold, _cosine(CLEAR_FOLD * crease), len(points))] = 255
+    lone, figure = _noise_edges(kind, mesh.edges, fold, _cosine(CLEAR_FOLD * crease), len(points))
+    if len(lone):
+        ways = points[mesh.edges[lone, 1]] - points[mesh.edges[lone, 0]]
+        long = (ways * ways).sum(axis=1) >= (LONG_EDGE * sizes[edge_part[lone]]) ** 2
+        lone = lone[~np.isin(figure, figure[long])]
+    kind[lone] = 255
     return kind
 
 
@@ -106,11 +121,14 @@ def _gap_edges(kind: Kinds, edges: Ints, near: npt.NDArray[np.intp], points: Flo
     return found
 
 
-def _noise_edges(kind: Kinds, edges: Ints, fold: Floats, clear_fold: float, n: int) -> Ints:
-    """Edges of connected sets without a clear edge that are short, or end within smooth surfaces."""
+def _noise_edges(kind: Kinds, edges: Ints, fold: Floats, clear_fold: float, n: int) -> tuple[Ints, Ints]:
+    """Edges of connected sets without a clear edge that are of few edges, or end within smooth surfaces.
+
+    Returns the edges, and the number of the set of each.
+    """
     chosen = np.flatnonzero(kind != 255).astype(np.int32)
     if len(chosen) == 0:
-        return chosen
+        return chosen, chosen
     ends = edges[chosen]
     # An edge without a fold, at a border, is clear as well.
     clear = ~(fold[chosen] >= clear_fold)
@@ -120,8 +138,8 @@ def _noise_edges(kind: Kinds, edges: Ints, fold: Floats, clear_fold: float, n: i
     open_ended = np.bincount(figure, weights=single) >= 2
     few = long < np.where(open_ended, LONG_CREASE, LONE_EDGES)
     slight = few & (np.bincount(figure, weights=clear) == 0)
-    lone: Ints = chosen[slight[figure]]
-    return lone
+    lone = slight[figure]
+    return chosen[lone], figure[lone]
 
 
 def _unit(v: Floats) -> Floats:

@@ -26,10 +26,10 @@ def prism(sides: int) -> tuple[np.ndarray, np.ndarray]:
     return points.astype(np.float32).astype(float), np.array(faces)
 
 
-def ridge(folds: list[float]) -> tuple[np.ndarray, np.ndarray]:
-    """A sheet with a ridge along the middle, that folds by so many degrees at each of its places."""
+def ridge(folds: list[float], y: list[float] | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """A sheet with a ridge along the middle, that folds by so many degrees at each of its places; y: where they are."""
     x = np.array([-40.0, -20.0, 0.0, 20.0, 40.0])
-    y = 10.0 * np.arange(len(folds))
+    y = 10.0 * np.arange(len(folds)) if y is None else np.array(y)
     # Only the middle strip is bent; the outer ones level out gently.
     slope = np.tan(np.radians(np.array(folds) / 2))
     z = np.stack([-0.9 * 20 * slope - 20 * 0.5 * slope, -20 * slope, 0 * slope, -20 * slope, -1.4 * 20 * slope], axis=0)
@@ -72,6 +72,15 @@ def test_what_is_hardly_a_crease_and_ends_in_smooth_surfaces_is_none() -> None:
 def test_a_faint_crease_is_drawn_where_it_is_long() -> None:
     assert sharp(ridge([0, 0, 10, 28, *[35] * 13, 28, 10, 0, 0])) >= 120.0
     assert sharp(ridge([0, 0, 10, 28, *[35] * 9, 28, 10, 0, 0])) == 0.0
+
+
+def test_a_faint_crease_of_one_long_edge_is_drawn() -> None:
+    """Parts that are meshed coarsely have such edges, and scans have not."""
+    folds = [0, 12, 24, 35, 35, 24, 12, 0]
+    assert sharp(ridge(folds, [0, 20, 40, 60, 160, 180, 200, 220])) == pytest.approx(100.0, rel=0.01)
+    assert sharp(ridge(folds, [0, 30, 60, 90, 120, 150, 180, 210])) == 0.0
+    # Below the crease angle a long edge is smooth all the same.
+    assert sharp(ridge([0, 9, 18, 27, 27, 18, 9, 0], [0, 20, 40, 60, 160, 180, 200, 220])) == 0.0
 
 
 def test_what_is_clearly_a_crease_may_end_there() -> None:
