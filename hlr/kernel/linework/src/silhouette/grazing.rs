@@ -107,7 +107,7 @@ fn dented(model: &Model, side: &Side) -> bool {
     }
     let [p, q, r] = model.triangles[side.triangle as usize].map(|v| model.points[v as usize]);
     let normal = cross(&sub(&q, &p), &sub(&r, &p));
-    dot(&normal, &model.sight(&p)) > -WALL * length(&normal)
+    dot(&normal, &model.sight(&p)) >= -WALL * length(&normal)
 }
 
 fn on_edge(model: &Model, e: usize, t: f64) -> Vector {
