@@ -19,7 +19,8 @@ from . import guard, signals
 from .streams import ReaderGoneError, printing
 
 REFUSED = 2
-FAULT = 1
+FAULT = 70
+"""EX_SOFTWARE of sysexits.h: 1 says that drawings differ, or that some sources of a batch failed."""
 
 
 def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoReturn:

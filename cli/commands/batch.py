@@ -116,9 +116,9 @@ def batch(
         stop = stack.enter_context(signals.tidily())
         show = stack.enter_context(progress(quiet))
         pool = _Pool(stack, jobs, address)
-        code = _round(plan, kept, digests, show, pool, earlier)
+        code, done = _round(plan, kept, digests, show, pool, earlier)
         if watch:
-            _watch(asked, plan, kept, digests, show, pool, earlier, stop)
+            _watch(asked, done, kept, digests, show, pool, earlier, stop)
     return code
 
 
@@ -216,8 +216,8 @@ def _prepared(asked: _Asked) -> tuple[Plan, Kept, Digests]:
     return plan, Kept(None if where is None else Store(where, most_bytes(), DRAWINGS), digests), digests
 
 
-def _round(plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, earlier: _Earlier) -> int:
-    """Draw what has changed, write the report, and say how it went. Returns the exit code."""
+def _round(plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, earlier: _Earlier) -> tuple[int, Done]:
+    """Draw what has changed, write the report, and say how it went. Returns the exit code, and what was done."""
     from hlr.batch.ci import github
     from hlr.batch.report import write
     from hlr.batch.run import run, tidy
@@ -235,8 +235,8 @@ def _round(plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, e
         if changed is not None:
             click.echo(f"since {earlier.name}: {changed}", err=True)
     if report["counts"]["failed"]:
-        return FAILED
-    return CHANGED if earlier.fails and changed is not None and changed.any else 0
+        return FAILED, done
+    return CHANGED if earlier.fails and changed is not None and changed.any else 0, done
 
 
 def _said(done: Done, seconds: float) -> str:
@@ -249,7 +249,7 @@ def _said(done: Done, seconds: float) -> str:
 
 def _watch(
     asked: _Asked,
-    plan: Plan,
+    done: Done,
     kept: Kept,
     digests: Digests,
     show: Lines,
@@ -258,18 +258,19 @@ def _watch(
     stop: signals.StopRequest,
 ) -> None:
     """Draw again whatever changes, until a signal ends the command."""
-    from hlr.batch.watch import changes
+    from hlr.batch.watch import changes, concern
     from hlr.errors import HlrError
 
-    root, output = plan.manifest.root, plan.output
+    root, output = done.plan.manifest.root, done.plan.output
     if not show.quiet:
         click.echo(f"watching {root}; Ctrl-C ends it", err=True)
-    outside = {Path(root, job.source).resolve() for job in plan.jobs}
+    outside = {Path(root, job.source).resolve() for job in done.plan.jobs}
     for changed in changes(root, output, outside, stop):
+        if not concern(done, changed):
+            continue
         digests.forget(changed)
         try:
-            plan = asked.plan()
-            _round(plan, kept, digests, show, pool, earlier)
+            _, done = _round(asked.plan(), kept, digests, show, pool, earlier)
         except HlrError as error:  # a manifest in the middle of being changed
             click.echo(f"hlr: {error}", err=True)
 

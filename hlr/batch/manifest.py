@@ -85,7 +85,7 @@ def find(folder: Path) -> Path | None:
 
 
 def read(file: Path, **given: Any) -> Manifest:
-    """The manifest in a file. given: values of keys that take the place of those at its top, where there are any.
+    """The manifest in a file. given: values of keys that take the place of those in it, where there are any.
 
     Raises OptionError, with line and key, for whatever is wrong in it.
     """
@@ -124,13 +124,14 @@ def manifest_of(
         raise wrong((_TABLE,), f"write [[{_TABLE}]] with double brackets")
     top = {name: value for name, value in found.items() if name != _TABLE}
     _check(top, (), wrong)
-    top |= {name: value for name, value in (given or {}).items() if value}
+    instead = {name: value for name, value in (given or {}).items() if value}
+    top |= instead
     rules = []
     for number, table in enumerate(tables):
         _check(table, (_TABLE, number), wrong)
         if "files" not in table:
             raise wrong((_TABLE, number), f"this [[{_TABLE}]] names no files")
-        rules.append(_rule({**top, **table}, (*prefix, _TABLE, number), table))
+        rules.append(_rule({**top, **table, **instead}, (*prefix, _TABLE, number), table))
     output = top.get("output", KEYS["output"].default)
     return Manifest(root, output, tuple(rules) or (_rule(top, prefix, top),), file, text)
 

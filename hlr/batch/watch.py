@@ -6,6 +6,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Protocol
 
+from hlr.batch.request import files_of
+from hlr.batch.run import Done
+from hlr.tables.readers import of_ending
+
 _STEP_MS = 20
 """Milliseconds between two looks at what the system has told."""
 
@@ -33,6 +37,18 @@ def changes(root: Path, output: Path, others: set[Path], stop: Stop) -> Iterator
         paths = {path for path in paths if not path.is_relative_to(output) and not _is_aside(path, root)}
         if paths:
             yield paths
+
+
+def concern(done: Done, changed: set[Path]) -> bool:
+    """Whether the files that have changed may change drawings: models, manifests, and what the sources depend on."""
+    root = done.plan.manifest.root
+    known = set()
+    for job, outcome in zip(done.plan.jobs, done.outcomes, strict=True):
+        files = (job.source, *job.depends, *outcome.depends, *files_of(job.options, job.root).values())
+        known |= {Path(root, file).resolve() for file in files}
+    return any(
+        of_ending(path.suffix) is not None or path.suffix == ".toml" or path.resolve() in known for path in changed
+    )
 
 
 def _is_aside(path: Path, root: Path) -> bool:

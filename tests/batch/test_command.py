@@ -115,9 +115,22 @@ def test_watching_draws_what_is_saved(hlr_batch, tmp_path):
         while svg.read_bytes() == before:
             assert time.monotonic() < end
             time.sleep(0.02)
+        # What no drawing depends on, as a log of what is said here, starts nothing.
+        time.sleep(0.3)
+        (hlr_batch.folder / "watch.log").write_text("a line\n")
+        time.sleep(0.5)
     finally:
         process.send_signal(signal.SIGINT)
         assert process.wait(timeout=10) == -signal.SIGINT
+    assert sum(" drawn, " in line for line in process.stderr) == 1
+
+
+def test_the_command_line_wins_over_each_table_of_a_manifest(hlr_batch):
+    tetrahedron(hlr_batch.folder / "a.off")
+    (hlr_batch.folder / "hlr.toml").write_text('[[source]]\nfiles = "a.off"\nviews = "iso"\nformats = "pdf"\n')
+    assert hlr_batch("--list").stdout.split() == [str(hlr_batch.folder / "drawings/a-iso.pdf")]
+    given = hlr_batch("--list", "--view", "front", "--format", "svg")
+    assert given.stdout.split() == [str(hlr_batch.folder / "drawings/a-front.svg")]
 
 
 @pytest.mark.slow

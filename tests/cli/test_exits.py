@@ -22,13 +22,13 @@ posix = pytest.mark.skipif(os.name != "posix", reason="signals as in POSIX")
 )
 def test_a_fault_of_ours_asks_for_a_report(hlr_command, source, words, tmp_path):
     result = hlr_command("draw", source)
-    assert result.code == 1
+    assert result.code == 70
     assert result.err.startswith(f"hlr: {words}; this is a fault of hlr, please report it")
     assert result.err.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize(("source", "code"), [("bug.step", 1), ("missing.step", 2)])
+@pytest.mark.parametrize(("source", "code"), [("bug.step", 70), ("missing.step", 2)])
 def test_the_traceback_is_there_for_those_who_ask(hlr_command, monkeypatch, source, code):
     monkeypatch.setenv("HLR_DEBUG", "1")
     result = hlr_command("draw", source)
@@ -194,7 +194,7 @@ def test_a_closed_standard_output_is_said(child):
         (["plan", "missing.step", "--json"], 2, "SourceError", "missing.step does not exist"),
         (["draw", "a.step", "--json", "--scale", "0"], 2, "UsageError", "is not a scale"),
         (["draw", "a.step", "--json", "-o", "a.dwg"], 2, "WriteError", "use .svg, .pdf, "),
-        (["draw", "bug.step", "--json"], 1, "ZeroDivisionError", "division by zero"),
+        (["draw", "bug.step", "--json"], 70, "ZeroDivisionError", "division by zero"),
         (["draw", "memory.step", "--json"], 2, "MemoryError", "out of memory"),
         (["draw", "notes.step", "--json", "--strict"], 2, "StrictError", "because of --strict."),
     ],
@@ -212,7 +212,7 @@ def test_where_json_was_asked_for_errors_are_json_too(hlr_command, arguments, co
 def test_a_crash_is_json_too(child):
     process = child("draw", "crash.step", "--json", stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     out, _ = process.communicate(timeout=30)
-    assert process.returncode == 1
+    assert process.returncode == 70
     assert json.loads(out)["error"]["kind"] == "CrashError"
 
 

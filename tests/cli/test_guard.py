@@ -105,7 +105,7 @@ def test_a_script_that_crashes(tmp_path, body):
 def test_a_crash_of_our_own_code_asks_for_a_report(child, tmp_path):
     process = child("draw", "crash.step", "-o", "a.svg", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     code, out, err = finished(process)
-    assert (code, out) == (1, b"")
+    assert (code, out) == (70, b"")
     assert err.startswith(
         "hlr: internal error: CrashError: segmentation fault while drawing crash.step; nothing was wr"
     )
@@ -122,7 +122,7 @@ def test_a_crash_after_all_was_written_is_none(child, tmp_path):
 @pytest.mark.slow
 def test_the_progress_bar_is_gone_before_the_sentence(on_terminal):
     shown, code = on_terminal("draw", "crash-slowly.step", columns=200)
-    assert code == 1
+    assert code == 70
     bar, sentence = shown.rsplit("\x1b[2K", 1)
     assert "visibility" in bar
     assert bar.count("\x1b[?25h") == bar.count("\x1b[?25l") > 0
@@ -138,7 +138,7 @@ def test_exit_codes_and_output_pass_through(child, tmp_path):
     code, out, err = run("draw", "a.step", "-o", "-")
     assert (code, out[:5], err) == (0, b"<?xml", "")
     assert run("draw", "missing.step")[::2] == (2, "hlr: cannot read missing.step: there is no such file.\n")
-    assert run("draw", "bug.step")[0] == 1
+    assert run("draw", "bug.step")[0] == 70
     assert run("draw", "a.step", "--nonsense")[0] == 2
 
 

@@ -4,7 +4,7 @@
 
 Every file must end in a drawing (exit code 0) or one sentence (2), with the earlier output intact in the latter case.
 What does not is saved under the folder `found`, one file for each way of failing: crash (a signal), hang, fault (exit
-code 1 or a traceback), sentence (more or less than one), output (incomplete, or changed though refused), strays.
+code 70 or a traceback), sentence (more or less than one), output (incomplete, or changed though refused), strays.
 """
 
 from __future__ import annotations

@@ -87,7 +87,7 @@ def test_a_wrong_outcome_would_be_noticed() -> None:
 
     drawn = b"<?xml version='1.0'?><svg></svg>\n"
     assert fault(0, "hlr: warning: open\n", drawn) == fault(2, "hlr: a.stl is empty\n") == ""
-    assert fault(1, "hlr: internal error: ...\n") == "fault"
+    assert fault(70, "hlr: internal error: ...\n") == "fault"
     assert fault(2, "Traceback (most recent call last):\n") == "fault"
     assert fault(2) == fault(2, "hlr: one\nhlr: two\n") == "sentence"
     assert fault(2, "overflow encountered\nhlr: one\n") == fault(0, "a word\n", drawn) == "noise"

@@ -1,8 +1,8 @@
 """A vertex in the middle of a straight edge of a face: the triangle that is filled in there has no area.
 
-A shaft touches the edge between a flat end face and its fillet. The two halves of that edge are edges of the fillet, and
-the mesher joins their ends. Once rounded, the triangle between the three may fold over and lie in front of the edge by
-a step of the grid: that hides nothing.
+A shaft touches the edge between a flat end face and its fillet. The two halves of that edge are edges of the fillet,
+and the mesher joins their ends. Once rounded, the triangle between the three may fold over and lie in front of the
+edge by a step of the grid: that hides nothing.
 """
 
 from __future__ import annotations
