@@ -9,7 +9,7 @@ from hlr.compat.occt_edges import occt_edges
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line
 from hlr.errors import OptionError, SourceError, ViewError
-from hlr.request.directions import CLOSEST
+from hlr.request.directions import CLOSEST, axes, normalized
 from hlr.request.options import Vector
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ def project_to_viewport(
     Args:
         shape: a build123d shape or builder.
         viewport_origin: where the viewport is.
-        viewport_up: what points up in it.
+        viewport_up: what points up in it. Seen from above along z, where z cannot, y points up, and from below minus y.
         look_at: the point looked at; None: the shape's centre.
         focus: in perspective, how far before the viewport the eye is; None: parallel rays.
 
@@ -49,7 +49,7 @@ def project_to_viewport(
     x, y, z = (o - t for o, t in zip(origin, target, strict=True))
     if max(abs(x), abs(y), abs(z)) <= CLOSEST * max(1.0, *map(abs, origin)):
         raise ViewError("viewport_origin is the point it looks at: move it away from look_at")
-    up = _point(viewport_up, "viewport_up")
+    up = _across(_point(viewport_up, "viewport_up"), (x, y, z))
     length = viewport.check_positive(focus, "focus") if focus else None
     picture = viewport.draw_viewport(shape, viewport.Viewport(origin, (x, y, z), up, length))
     found: dict[bool, list[Edge]] = {True: [], False: []}
@@ -60,6 +60,12 @@ def project_to_viewport(
             edge.label = label
             found[line.visible].append(edge)
     return ListOf(found[True]), ListOf(found[False])
+
+
+def _across(up: Vector, direction: Vector) -> Vector:
+    """What points up; where both are along z, what points up in a view of hlr from above or below."""
+    along_z = all(max(abs(v[0]), abs(v[1])) < CLOSEST * abs(v[2]) for v in (up, direction))
+    return axes(normalized(direction, "the view direction"), None)[1] if along_z else up
 
 
 def _shape(thing: Any) -> Any:

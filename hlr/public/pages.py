@@ -105,7 +105,8 @@ def _page_options(options: Options) -> Options:
     usual = Options()
     given = [name for name in Options.__dataclass_fields__ if getattr(options, name) != getattr(usual, name)]
     if barred := [name for name in given if name not in FREE]:
-        raise OptionError(f"the views of a page say {listed(barred, 'and')} themselves: leave that out")
+        what = f"option{'s' if len(barred) > 1 else ''} {listed(barred, 'and')}"
+        raise OptionError(f"a page of a document is drawn as it is: leave out the {what}")
     return checked(options)
 
 

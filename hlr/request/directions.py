@@ -101,7 +101,7 @@ def axes(direction: Vector, up_hint: Vector | None) -> tuple[Vector, Vector]:
         up_hint = (0.0, 1.0 if direction[2] > 0.0 else -1.0, 0.0) if along_z else (0.0, 0.0, 1.0)
     side = cross(normalized(up_hint, "up"), direction)
     if max(abs(c) for c in side) < 1e-9:
-        raise ViewError("up is parallel to the view direction: give an --up that crosses it")
+        raise ViewError("up is parallel to the view direction: give another direction for up")
     right = normalized(side, "right")
     # The cross product of unit vectors is a unit vector up to rounding.
     return right, normalized(cross(direction, right), "up")

@@ -50,6 +50,20 @@ def test_the_same_lines_in_the_same_place(name, view):
     assert length(ours[1]) <= 1.001 * length(theirs[1])
 
 
+@pytest.mark.parametrize(("height", "up"), [(100, 1.0), (-100, -1.0)])
+def test_from_above_and_below_y_points_up(height, up):
+    """build123d turns such a view by some angle."""
+    seen, hidden = project_to_viewport(bd.Pos(30, 7, 0) * bd.Box(10, 20, 5), (30, 7, height))
+    left, lower, _, right, upper, _ = bounds(seen)
+    assert (right - left, upper - lower) == pytest.approx((10.0, 20.0))
+    assert length(seen) == pytest.approx(60.0) and not hidden
+    # A hole toward +y is in the upper half of the picture, seen from below in the lower one.
+    plate = bd.Box(10, 20, 5) - bd.Pos(0, 6, 0) * bd.Cylinder(1, 9)
+    seen, _ = project_to_viewport(plate, (0, 0, height))
+    (rim,) = [edge for edge in seen if edge.geom_type == bd.GeomType.CIRCLE]
+    assert rim.arc_center.Y * up > 1.0
+
+
 @pytest.mark.parametrize("focus", [90, 400])
 def test_perspective(focus):
     shape, origin = bd.Pos(1, 2, 3) * bd.Box(10, 20, 30), (100, -80, 70)
