@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -86,9 +87,11 @@ def loads(text: str | bytes, name: str = "the text") -> Drawing:
 def _drawing(document: dict[str, Any]) -> Drawing:
     accuracy: Accuracy = revived(Accuracy, document["accuracy"], "accuracy")
     parts: tuple[DrawnPart, ...] = revived(tuple[DrawnPart, ...], document["parts"], "parts")
+    if not isinstance(document["timings"], dict):
+        raise ValueError("timings should be an object")
     timings = dict(document["timings"])
     seconds = timings.pop("effects", {})
-    return Drawing(
+    found = Drawing(
         source=revived(str, document["source"], "source"),
         view=revived(DrawnView, document["view"], "view"),
         scale=revived(float, document["scale"], "scale"),
@@ -97,9 +100,11 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         unit=revived(float, document["model"]["unit"], "model.unit"),
         up_axis=revived(tuple[tuple[float, float, float], ...], document["model"]["up_axis"], "model.up_axis"),
         parts=parts,
-        lines=tuple(_lines(document["lines"], len(parts))),
+        lines=tuple(_lines(_objects(document["lines"], "lines"), len(parts))),
         # A later program may know more codes.
-        notes=tuple(Note(note["code"], revived(str, note["text"], "notes")) for note in document["notes"]),
+        notes=tuple(
+            Note(note["code"], revived(str, note["text"], "notes")) for note in _objects(document["notes"], "notes")
+        ),
         counters=revived(Mapping[str, int], document["counters"], "counters"),
         timings=revived(Mapping[str, float], timings, "timings"),
         fill=revived(Fill | None, document.get("fill"), "fill"),
@@ -108,8 +113,31 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         group=revived(tuple[float, float] | None, document.get("group"), "group"),
         window=None if document.get("window") is None else Bounds(*revived(Box, document["window"], "window")),
         page=revived(Page | None, document.get("page"), "page"),
-        plan=tuple(_decision(d, seconds, f"plan[{i}]") for i, d in enumerate(document["plan"])),
+        plan=tuple(_decision(d, seconds, f"plan[{i}]") for i, d in enumerate(_objects(document["plan"], "plan"))),
     )
+    _check(found)
+    return found
+
+
+def _objects(value: Any, what: str) -> list[dict[str, Any]]:
+    if not isinstance(value, list) or not all(isinstance(each, dict) for each in value):
+        raise ValueError(f"{what} should be a list of objects")
+    return value
+
+
+def _check(drawing: Drawing) -> None:
+    """Raise ValueError for numbers that no drawing has."""
+    page = () if drawing.page is None else (("page.width", drawing.page.width), ("page.height", drawing.page.height))
+    for name, value in (("scale", drawing.scale), ("model.unit", drawing.unit), *page):
+        if not (math.isfinite(value) and value > 0.0):
+            raise ValueError(f"{name} is {value:g}, not a positive number")
+    for name in ("direction", "right", "up"):
+        vector = getattr(drawing.view, name)
+        if not all(map(math.isfinite, vector)) or not any(vector):
+            raise ValueError(f"view.{name} is no direction")
+    for i, line in enumerate(drawing.lines):
+        if not (np.isfinite(line.points).all() and np.isfinite(line.points3).all()):
+            raise ValueError(f"lines[{i}] has coordinates that are no numbers")
 
 
 def _lines(entries: list[dict[str, Any]], parts: int) -> Iterator[Line]:

@@ -59,7 +59,7 @@ def test_from_above_and_below_y_points_up(height, up):
     assert length(seen) == pytest.approx(60.0) and not hidden
     # A hole toward +y is in the upper half of the picture, seen from below in the lower one.
     plate = bd.Box(10, 20, 5) - bd.Pos(0, 6, 0) * bd.Cylinder(1, 9)
-    seen, _ = project_to_viewport(plate, (0, 0, height))
+    seen, _ = project_to_viewport(plate, (0, 0, height), look_at=(0, 0, 0))
     (rim,) = [edge for edge in seen if edge.geom_type == bd.GeomType.CIRCLE]
     assert rim.arc_center.Y * up > 1.0
 

@@ -2,6 +2,7 @@
 
 import io
 import json
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -104,7 +105,16 @@ def damaged(**changes):
         (damaged(scale="1:2"), "scale should be a number"),
         (damaged(scale=True), "scale should be a number"),
         (damaged(accuracy__used="fine"), "accuracy.used should be a number"),
-        (damaged(lines=7), "is damaged"),
+        (damaged(scale=0), "scale is 0, not a positive number"),
+        (damaged(scale=-1), "scale is -1, not a positive number"),
+        (damaged(scale=math.inf), "scale is inf, not a positive number"),
+        (damaged(model__unit=math.nan), "model.unit is nan, not a positive number"),
+        (damaged(view__direction=[0, 0, 0]), "view.direction is no direction"),
+        (damaged(view__up=[0, math.nan, 1]), "view.up is no direction"),
+        (damaged(lines__0__points=[[0, math.inf], [1, 1]]), "lines[0]"),
+        (damaged(lines=7), "lines should be a list of objects"),
+        (damaged(lines=["x"]), "lines should be a list of objects"),
+        (damaged(timings="x"), "timings should be an object"),
         (damaged(lines__0__class="axis"), "lines[0].class should be one of sharp,"),
         (damaged(lines__0__visible=1), "lines[0].visible should be true or false"),
         (damaged(lines__0__part=9), "lines[0] is of part 9, and there are 2"),
@@ -115,7 +125,7 @@ def damaged(**changes):
         (damaged(lines__0__curve={"type": "bezier", "degree": 3, "points": [[0, 0]]}), "lines[0].curve should be"),
         (damaged(lines__0__curve={"type": "arc", "centre": [0, 0], "axes": [[1, 0]], "angles": [0, 1]}), "two axes"),
         (damaged(parts__0__transform="here"), "parts[0].transform should be an array"),
-        (damaged(notes=[7]), "is damaged"),
+        (damaged(notes=[7]), "notes should be a list of objects"),
         (damaged(plan=[{"effect": 1}]), "plan[0].effect should be text"),
     ],
 )
