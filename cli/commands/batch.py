@@ -16,6 +16,7 @@ from hlr.tables.writers import WRITERS
 
 from .. import signals
 from ..batch_progress import Lines, progress
+from ..exits import remark
 from ..parameters import Vector3, ViewName
 from ..verb import Verb
 from ..view_options import NO_CACHE
@@ -99,6 +100,8 @@ def batch(
     watch, baseline, fail_on_change = (others.pop(name) for name in ("watch", "baseline", "fail_on_change"))
     asked = _Asked(sources, **others)
     plan, kept, digests = _prepared(asked)
+    if not quiet:
+        _tell(plan, asked)
     if only_list:
         for job in plan.jobs:
             for row in job.files:
@@ -122,6 +125,17 @@ def batch(
     return code
 
 
+def _tell(plan: Plan, asked: _Asked) -> None:
+    """Say what is not drawn, though one might expect it."""
+    from hlr.batch.manifest import find
+    from hlr.batch.plan import shows_nothing
+
+    if plan.manifest.file is None and asked.names_sources and (unused := find(Path())) is not None:
+        remark(f"{unused} is not used, for sources are named: name it, or the folder, to draw what it says")
+    if plan.silent:
+        remark(shows_nothing(plan.silent))
+
+
 class _Asked:
     """What the command line asks for. The manifest is read again where it has changed."""
 
@@ -138,6 +152,11 @@ class _Asked:
             "views": [view if isinstance(view, str) else list(view) for view in views],
             "formats": list(formats),
         }
+
+    @property
+    def names_sources(self) -> bool:
+        """Whether sources are named, and no folder with a manifest."""
+        return bool(self._sources)
 
     def plan(self) -> Plan:
         """The plan of the batch, as the files are now."""

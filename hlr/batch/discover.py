@@ -11,7 +11,10 @@ from pathlib import Path
 from hlr.tables.readers import of_ending
 
 _CAD_SCRIPT = re.compile(rb"^[ \t]*(?:import|from)[ \t]+(?:cadquery|build123d)\b", re.MULTILINE)
-_SHOWS = re.compile(rb"^[ \t]*show(?:_object)?[ \t]*\(|^result[ \t]*=", re.MULTILINE)
+_SHOWS = re.compile(
+    rb"^[ \t]*show(?:_object|_all)?[ \t]*\(|^result[ \t]*=|^with[ \t]+(?:\w+\.)?Build(?:Part|Sketch|Line)\b",
+    re.MULTILINE,
+)
 _MARKS = frozenset("*?[")
 _NO_FOLDERS = ("node_modules", "site-packages")
 
@@ -21,14 +24,15 @@ def is_pattern(name: str) -> bool:
     return bool(_MARKS & set(name))
 
 
-def named(root: Path, pattern: str) -> list[Path]:
+def named(root: Path, pattern: str, silent: list[Path] | None = None) -> list[Path]:
     """The files that a name or a pattern stands for, sorted: of a folder all models under it.
 
     A pattern leaves out what is no model; a name stands for its file, whatever it is. Empty where there is none.
+    silent: as of `models_under`.
     """
     path = root / pattern
     if not is_pattern(pattern) and path.is_dir():
-        return list(models_under(path))
+        return list(models_under(path, silent))
     found = files_named(root, pattern)
     return [each for each in found if of_ending(each.suffix) is not None] if is_pattern(pattern) else found
 
@@ -51,17 +55,23 @@ def takes_parameters(path: Path) -> bool:
     return reader is not None and "parameters" in reader.takes
 
 
-def models_under(folder: Path) -> Iterator[Path]:
+def models_under(folder: Path, silent: list[Path] | None = None) -> Iterator[Path]:
     """All models under a folder, sorted. Hidden folders and those of installed packages are left out.
 
-    A script is run to be drawn, so only those count that import CadQuery or build123d and show something.
+    A script is run to be drawn, so only those count that import CadQuery or build123d and show something. silent: gets
+    the scripts that import them and show nothing.
     """
     for place, folders, names in os.walk(folder):
         folders[:] = sorted(name for name in folders if not _is_foreign(Path(place, name)))
         for name in sorted(names):
             path, reader = Path(place, name), of_ending(Path(name).suffix)
-            if not name.startswith(".") and reader is not None and (reader.kind != "script" or _shows(path)):
+            if name.startswith(".") or reader is None:
+                continue
+            is_cad, shows = _says(path) if reader.kind == "script" else (True, True)
+            if is_cad and shows:
                 yield path
+            elif is_cad and silent is not None:
+                silent.append(path)
 
 
 def without(paths: Iterable[Path], patterns: Iterable[str], root: Path) -> list[Path]:
@@ -88,9 +98,10 @@ def _is_foreign(folder: Path) -> bool:
     return name.startswith((".", "__")) or name in _NO_FOLDERS or os.path.exists(folder / "pyvenv.cfg")
 
 
-def _shows(script: Path) -> bool:
+def _says(script: Path) -> tuple[bool, bool]:
+    """Whether a script imports CadQuery or build123d, and whether it shows something."""
     try:
         text = script.read_bytes()
     except OSError:
-        return False
-    return bool(_CAD_SCRIPT.search(text) and _SHOWS.search(text))
+        return False, False
+    return bool(_CAD_SCRIPT.search(text)), bool(_SHOWS.search(text))

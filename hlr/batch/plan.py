@@ -20,6 +20,9 @@ from hlr.errors import OptionError
 MOST_VARIANTS = 10_000
 """Of one source."""
 
+MOST_NAMED = 5
+"""Scripts that one sentence names."""
+
 REPORTS = ("manifest.json", "junit.xml", "summary.md", "code-quality.json")
 """Files of the report, in the folder of outputs."""
 
@@ -31,11 +34,13 @@ class Plan:
     """All jobs of a batch, in the order of the report.
 
     output  the folder that is written to, absolute
+    silent  scripts in folders of sources that import CadQuery or build123d and show nothing: they are not drawn
     """
 
     manifest: Manifest
     output: Path
     jobs: tuple[Job, ...]
+    silent: tuple[Path, ...] = ()
 
 
 def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
@@ -45,8 +50,9 @@ def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
     written to one file.
     """
     jobs: list[Job] = []
+    silent: list[Path] = []
     for rule in manifest.rules:
-        sources = _sources(manifest, rule, output)
+        sources = _sources(manifest, rule, output, silent)
         if "parameters" in rule.own and not any(map(takes_parameters, sources)):
             raise manifest.error((*rule.where, "parameters"), "only scripts have parameters, and this names none")
         depends = _depends(manifest, rule)
@@ -56,27 +62,40 @@ def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
             alone = stems[str(path.with_suffix(""))] == 1
             jobs.extend(replace(job, depends=depends) for job in _jobs(manifest, rule, path, options, alone))
     _check_names(manifest, jobs)
-    return Plan(manifest, output, tuple(jobs))
+    drawn = {os.path.join(job.root, job.source) for job in jobs}
+    return Plan(manifest, output, tuple(jobs), tuple(path for path in dict.fromkeys(silent) if str(path) not in drawn))
 
 
-def _sources(manifest: Manifest, rule: Rule, output: Path) -> list[Path]:
-    root, patterns = manifest.root, listed(rule.values["files"])
-    found = [] if patterns else list(models_under(root))
+def _sources(manifest: Manifest, rule: Rule, output: Path, silent: list[Path]) -> list[Path]:
+    """The sources of a rule. silent: gets the scripts that show nothing, as of `models_under`."""
+    root, patterns, exclude = manifest.root, listed(rule.values["files"]), listed(rule.values["exclude"])
+    quiet: list[Path] = []
+    found = [] if patterns else list(models_under(root, quiet))
     for pattern in patterns:
-        files = named(root, pattern)
+        files = named(root, pattern, quiet)
         if not files:
             raise manifest.error((*rule.where, "files"), f"{pattern} names no model under {root}")
         found += files
     outside = [path for path in dict.fromkeys(found) if not path.is_relative_to(output)]
-    kept = without(outside, listed(rule.values["exclude"]), root)
+    kept = without(outside, exclude, root)
+    quiet = [path for path in without(quiet, exclude, root) if not path.is_relative_to(output)]
+    silent += quiet
     if not kept:
         why = f"there is no model under {root}"
+        if quiet:
+            why += f"; {shows_nothing(quiet)}"
         if found and not outside:
             why = f"all models lie in the folder of outputs, {output}: give another one"
         elif outside:
             why = "all models are left out by exclude"
         raise manifest.error((*rule.where, "files"), why)
     return kept
+
+
+def shows_nothing(silent: Sequence[Path]) -> str:
+    """What is said of scripts that are not drawn."""
+    names = ", ".join(path.name for path in silent[:MOST_NAMED]) + (", ..." if len(silent) > MOST_NAMED else "")
+    return f"scripts that show nothing are left out ({names}): name them to draw them"
 
 
 def _depends(manifest: Manifest, rule: Rule) -> tuple[str, ...]:

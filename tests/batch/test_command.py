@@ -125,6 +125,15 @@ def test_watching_draws_what_is_saved(hlr_batch, tmp_path):
     assert sum(" drawn, " in line for line in process.stderr) == 1
 
 
+def test_a_manifest_that_is_not_used_is_told(hlr_batch):
+    tetrahedron(hlr_batch.folder / "a.off")
+    (hlr_batch.folder / "hlr.toml").write_text('views = "left"\n')
+    listed = hlr_batch("a.off", "--list")
+    assert listed.stderr.startswith("hlr: note: hlr.toml is not used, for sources are named")
+    assert "a-front.svg" in listed.stdout
+    assert hlr_batch("a.off", "--list", "-q").stderr == hlr_batch("--list").stderr == ""
+
+
 def test_the_command_line_wins_over_each_table_of_a_manifest(hlr_batch):
     tetrahedron(hlr_batch.folder / "a.off")
     (hlr_batch.folder / "hlr.toml").write_text('[[source]]\nfiles = "a.off"\nviews = "iso"\nformats = "pdf"\n')

@@ -35,11 +35,24 @@ def test_scripts_of_a_folder_are_run_only_where_they_show_a_cad_model(tmp_path):
         "shown.py": "from build123d import *\nshow_object(Box(1, 1, 1))\n",
         "helper.py": "import cadquery as cq\ndef box():\n    result = cq.Workplane()\n",
         "setup.py": "result = 1\n",
+        "built.py": "import build123d as bd\nwith bd.BuildPart() as part:\n    bd.Box(1, 1, 1)\n",
+        "all.py": "from build123d import *\nbox = Box(1, 1, 1)\nshow_all()\n",
     }
     for name, text in texts.items():
         (tmp_path / name).write_text(text)
-    assert list(planned(tmp_path)) == ["part.py", "shown.py"]
-    assert list(planned(tmp_path, files=["*.py"], exclude="setup.py")) == ["helper.py", "part.py", "shown.py"]
+    assert list(planned(tmp_path)) == ["all.py", "built.py", "part.py", "shown.py"]
+    named = planned(tmp_path, files=["*.py"], exclude=["setup.py", "[ab]*.py"])
+    assert list(named) == ["helper.py", "part.py", "shown.py"]
+
+    def silent(**found):
+        return [path.name for path in plan(manifest_of(found, tmp_path), tmp_path / "drawings").silent]
+
+    assert silent() == ["helper.py"]
+    assert silent(exclude="helper.py") == silent(files="*.py") == silent(files=[".", "helper.py"]) == []
+    for name in texts.keys() - {"helper.py", "setup.py"}:
+        (tmp_path / name).unlink()
+    with pytest.raises(OptionError, match=r"there is no model under .*; scripts that show nothing .*\(helper.py\)"):
+        planned(tmp_path)
 
 
 def test_patterns_leave_out_what_is_no_model_and_names_do_not(tmp_path):
