@@ -49,7 +49,7 @@ def plan(pattern: str | None, source: str, views: Sequence[str], ending: str) ->
         pattern = ("{stem}-{view}." if len(views) > 1 else "{stem}.") + ending
     elif is_folder(pattern):
         pattern = os.path.join(pattern, "{stem}-{view}." + ending)
-    unknown = [field for field in re.findall(r"\{(\w*)\}", pattern) if field not in FIELDS]
+    unknown = [field for field in re.findall(r"\{([^{}]*)\}", pattern) if field not in FIELDS]
     if unknown:
         raise OptionError(f"the output name has the unknown field {{{unknown[0]}}}; use {{stem}}, {{view}} or {{n}}")
     paths = [_fill(pattern, Path(source).stem, view, i + 1) for i, view in enumerate(views)]

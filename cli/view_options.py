@@ -93,6 +93,9 @@ NO_CACHE = click.option(
 def _as_table(
     _ctx: click.Context, _parameter: click.Parameter, given: tuple[tuple[str, Any], ...]
 ) -> dict[str, Any] | None:
+    names = [name for name, _ in given]
+    if twice := next((name for name in names if names.count(name) > 1), None):
+        raise OptionError(f"--param gives {twice} twice: give it once")
     return dict(given) or None
 
 

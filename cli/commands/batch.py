@@ -98,6 +98,8 @@ def batch(
     if init:
         return _init(sources)
     watch, baseline, fail_on_change = (others.pop(name) for name in ("watch", "baseline", "fail_on_change"))
+    if sum((watch, only_list, dry_run)) > 1:
+        raise OptionError("--watch, --list and --dry-run contradict one another: give one of them")
     asked = _Asked(sources, **others)
     plan, kept, digests = _prepared(asked)
     if not quiet:

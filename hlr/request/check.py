@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import is_dataclass, replace
 from numbers import Integral
 from typing import Any, Protocol, cast
 
@@ -148,7 +148,8 @@ def checked_views(views: Sequence[View], options: CameraOptions) -> list[View]:
         raise ViewError(f"{views!r} is no list of views: give names such as 'iso', or directions") from None
     for view in found:
         if not isinstance(view, str) and not _is_vector(view, 3, finite=False):
-            raise ViewError(f"{view!r} is no view: give a name such as 'iso', or a direction such as (1, -1, 1)")
+            what = type(view).__name__ if is_dataclass(view) else repr(view)
+            raise ViewError(f"{what} is no view: give a name such as 'iso', or a direction such as (1, -1, 1)")
     check_directions(found, options.up, options.perspective)
     return found
 

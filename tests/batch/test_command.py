@@ -134,6 +134,12 @@ def test_a_manifest_that_is_not_used_is_told(hlr_batch):
     assert hlr_batch("a.off", "--list", "-q").stderr == hlr_batch("--list").stderr == ""
 
 
+def test_ways_not_to_draw_contradict_one_another(hlr_batch):
+    tetrahedron(hlr_batch.folder / "a.off")
+    refused = hlr_batch("--list", "--watch")
+    assert refused.returncode == 2 and "contradict one another: give one of them" in refused.stderr
+
+
 def test_the_command_line_wins_over_each_table_of_a_manifest(hlr_batch):
     tetrahedron(hlr_batch.folder / "a.off")
     (hlr_batch.folder / "hlr.toml").write_text('[[source]]\nfiles = "a.off"\nviews = "iso"\nformats = "pdf"\n')

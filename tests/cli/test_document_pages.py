@@ -41,8 +41,11 @@ def test_a_sheet_of_paper_is_still_one(hlr_real, tmp_path):
     [
         ((HOUSING, "--page", "Blatt"), 'housing_body.FCStd has no page "Blatt": its pages are "Page"'),
         ((HOUSING, "--page", "Page", "--view", "top"), "leave out --view"),
-        ((HOUSING, "--page", "Page", "--scale", "2"), "the views of a page say scale themselves"),
-        ((HOUSING, "--all-pages", "--page", "A4"), "the views of a page say page themselves"),
+        (
+            (HOUSING, "--page", "Page", "--scale", "2"),
+            "a page of a document is drawn as it is: leave out the option scale",
+        ),
+        ((HOUSING, "--all-pages", "--page", "A4"), "leave out the option page"),
         ((HOUSING, "--page", "Page", "--format", "json"), "cannot be written as JSON"),
         ((STEP, "--all-pages"), "only FreeCAD documents (.FCStd) have pages"),
         ((STEP, "--page", "Blatt"), "no page is called 'Blatt'"),

@@ -116,6 +116,8 @@ def test_single_options_override_the_style(hlr_command):
         (["-o", "a.dwg"], "use .svg, .pdf, "),
         (["-o", "none/a.svg"], "the folder none does not exist"),
         (["-o", "{name}.svg"], "unknown field {name}"),
+        (["-o", "{n:02d}.svg"], "unknown field {n:02d}"),
+        (["--param", "a=1", "--param", "a=2"], "--param gives a twice"),
         (["-o", "a.svg", "--view", "top", "--view", "front"], "put {view} into its name, for example a-{view}.svg"),
         (["-o", "{view}.svg", "--view", "top", "--view", "top"], "two views would be written to top.svg"),
         (["-o", "-", "--view", "top", "--view", "front"], "standard output takes one view"),

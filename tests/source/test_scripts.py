@@ -81,6 +81,8 @@ def test_build123d(script):
         ("import no_such_module_at_all\n", "line 1: ModuleNotFoundError"),
         ("import sys\nsys.exit(3)\n", "exit code 3"),
         ("x = 1\n", "shows nothing"),
+        ("result = 'abc'\n", 'The variable "result" of model.py is no shape, but str'),
+        ("if __name__ == '__main__':\n    result = 1\n", 'under if __name__ == "__main__" is not run'),
         ("show_object(5)\n", "shows something that is no shape"),
     ],
 )

@@ -62,10 +62,19 @@ def open_script(path: Path, var: str | None = None, parameters: Mapping[str, Par
         except SourceError as error:
             raise SourceError(f"{path.name} shows something that is no shape: {error}") from None
     if not leaves:
-        raise SourceError(
-            f'{path.name} shows nothing: call show_object(shape) in it, or assign the shape to a variable "result".'
-        )
+        raise SourceError(_nothing_shown(path, values))
     return build_source(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}.")])
+
+
+def _nothing_shown(path: Path, values: dict[str, Any]) -> str:
+    """One sentence on a script that shows nothing."""
+    if _RESULT_VARIABLE in values and not _is_shape(values[_RESULT_VARIABLE]):
+        kind = type(values[_RESULT_VARIABLE]).__name__
+        return f'The variable "{_RESULT_VARIABLE}" of {path.name} is no shape, but {kind}: assign a shape to it.'
+    text = f'{path.name} shows nothing: call show_object(shape) in it, or assign the shape to a variable "result"'
+    if b"__main__" in path.read_bytes():
+        text += '; what stands under if __name__ == "__main__" is not run'
+    return f"{text}."
 
 
 def _objects_to_draw(
@@ -168,7 +177,7 @@ def _run(path: Path, shown: list[Shown], parameters: Mapping[str, Parameter]) ->
         raise SourceError(f"{path.name}{where}: SyntaxError: {error.msg}.") from None
     except SystemExit as error:
         if error.code not in (None, 0) and not shown:
-            raise SourceError(f"{path.name} left with exit code {error.code} before it showed anything.") from None
+            raise SourceError(f"{path.name} left with exit code {error.code}, and had shown nothing.") from None
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # whatever a script raises, the caller gets one sentence
