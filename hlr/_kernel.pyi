@@ -575,9 +575,13 @@ class Lines:
         """Those lines that are chosen (n,)."""
 
     def spacings(
-        self, reaches: tuple[float, float]
-    ) -> tuple[tuple[Floats, float, float] | None, tuple[Floats, float, float] | None]:
-        """How close the hidden lines run, and the visible ones: None where there are more than 2 km of them.
+        self, reaches: tuple[float, float, float]
+    ) -> tuple[
+        tuple[Floats, float, float] | None, tuple[Floats, float, float] | None, tuple[Floats, float, float] | None
+    ]:
+        """How close the hidden lines run, the visible ones, and hidden ones beside visible ones.
+
+        None where there are more than 2 km of them.
 
         reaches: up to which distances is looked, millimetres. (k,) millimetres of ink whose nearest line alongside is
         i/64 to (i + 1)/64 mm away; all ink; the side of the square around the smallest line, infinite where there are

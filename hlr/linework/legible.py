@@ -3,7 +3,8 @@
 Twice the width of the pen is the least distance of lines (ISO 128). The rule has three steps.
 
 1. The line group, where the style names no widths. Ink is crowded where a line of the same visibility runs alongside
-   nearer than that, from middle to middle. While more than `CROWDED` of the visible ink is crowded, the next thinner
+   nearer than that, from middle to middle; of a hidden line beside a visible one, where less than its own width is
+   white between them. While more than `CROWDED` of the visible ink, or as much hidden ink, is crowded, the next thinner
    group is taken, at last 0.25/0.13.
 2. What even this pen cannot show is left out (`kernel/linework/src/legible/left_out.rs`).
 3. Where too much is still crowded, a note names the scale at which it would not be.
@@ -63,15 +64,20 @@ class Spacing:
     """How close the lines of one visibility run.
 
     share (k,): of their ink, the share with a line alongside nearer than 1/64, 2/64 ... mm; smallest: the side of the
-    square around the smallest line, mm
+    square around the smallest line, mm; ink: all of it, mm
     """
 
     share: Floats
     smallest: float
+    ink: float
+
+    def within(self, distance: float) -> float:
+        """The share of ink with a line alongside nearer than so many millimetres."""
+        return float(self.share[_bins(distance) - 1])
 
     def crowded(self, pen: float) -> float:
         """The share of ink that is crowded with a pen of this width in millimetres."""
-        return float(self.share[_bins(pen) - 1])
+        return self.within(APART * pen)
 
     def distance(self) -> float:
         """Millimetres: all ink but `CROWDED` keeps it."""
@@ -100,10 +106,12 @@ def legible(
     begun = perf_counter()
     usual = widths_of(style, sheet)
     kept = held(lines)
-    behind, seen = _spacings(kept, (usual[1], usual[0]))
-    if seen is None or behind is None or not (seen.close(usual[0]) or behind.close(usual[1])):
+    behind, seen, under = _spacings(kept, usual)
+    if seen is None or behind is None or under is None:
         return Legible(lines)
-    pens = usual if style.wide or style.narrow else _group(seen, usual)
+    if not (seen.close(usual[0]) or behind.close(usual[1]) or under.within(_white(usual)) > 0.0):
+        return Legible(lines)
+    pens = usual if style.wide or style.narrow else _group(seen, under, usual)
     notes = _notes(seen, usual, pens, scale)
     fates = kept.left_out((pens[1], pens[0]), accuracy, list(in_drawing_order()))
     out = int(np.count_nonzero(fates))
@@ -114,23 +122,41 @@ def legible(
     return Legible(lines, pens if pens != usual else None, out, notes)
 
 
-def _group(seen: Spacing, usual: Pens) -> Pens:
-    """The first line group, beginning with the usual one, with which little ink is crowded; else the thinnest."""
+def _group(seen: Spacing, under: Spacing, usual: Pens) -> Pens:
+    """The first line group, beginning with the usual one, with which little ink is crowded; else the thinnest.
+
+    seen: of visible lines; under: of hidden lines beside them
+    """
     groups = [group for group in LINE_GROUPS if group[0] <= usual[0]]
-    return next((group for group in groups if seen.crowded(group[0]) <= CROWDED), groups[-1])
+    much = CROWDED * max(seen.ink, 1.0)
+
+    def clear(group: Pens) -> bool:
+        return seen.crowded(group[0]) <= CROWDED and under.within(_white(group)) * under.ink <= much
+
+    return next((group for group in groups if clear(group)), groups[-1])
 
 
-def _bins(pen: float) -> int:
-    """How many bins of distance are crowded with a pen of this width in millimetres."""
-    return ceil(APART * pen * BINS_PER_MM)
+def _white(pens: Pens) -> float:
+    """Millimetres from middle to middle of a visible and a hidden line with the width of the latter white between."""
+    wide, narrow = pens
+    return 0.5 * (wide + narrow) + narrow
+
+
+def _bins(distance: float) -> int:
+    """How many bins are nearer than so many millimetres."""
+    return ceil(distance * BINS_PER_MM)
 
 
 def _spacings(lines: _kernel.Lines, pens: Pens) -> list[Spacing | None]:
-    """Of hidden and of visible lines, for pens so wide; None where there is more ink than any page has room for."""
-    narrow, wide = pens
-    reaches = (_bins(narrow) / BINS_PER_MM, _bins(wide) / BINS_PER_MM)
+    """Of hidden lines, of visible lines, and of hidden ones beside visible ones, for pens so wide.
+
+    None where there is more ink than any page has room for.
+    """
+    wide, narrow = pens
+    nearest = (APART * narrow, APART * wide, _white(pens))
+    reaches = (_bins(nearest[0]) / BINS_PER_MM, _bins(nearest[1]) / BINS_PER_MM, _bins(nearest[2]) / BINS_PER_MM)
     return [
-        None if found is None else Spacing(np.cumsum(found[0]) / max(found[1], 1.0), found[2])
+        None if found is None else Spacing(np.cumsum(found[0]) / max(found[1], 1.0), found[2], found[1])
         for found in lines.spacings(reaches)
     ]
 

@@ -169,6 +169,22 @@ def test_another_style_keeps_the_group_unless_it_names_widths():
     assert 'stroke-width=".6"' in drawing.with_style("asme").to_svg()
 
 
+@pytest.mark.parametrize(
+    ("wall_mm", "group"), [(0.3, LINE_GROUPS[-1]), (0.4, LINE_GROUPS[-1]), (0.5, LINE_GROUPS[-2]), (0.8, None)]
+)
+def test_hidden_lines_beside_visible_ones_have_white_between_them(wall_mm, group):
+    """A tray with thin walls: the dashes of the inner side do not run into the outline."""
+    cq = pytest.importorskip("cadquery")
+    tray = cq.Workplane().box(100, 60, 30).faces(">Z").shell(-wall_mm)
+    for view in ("front", "right"):
+        drawing = hlr.draw(tray, view, scale=1)
+        assert len(drawing.hidden) == 3 and drawing.group == group
+        assert [note.code for note in drawing.notes] == ([] if group is None else ["thin-lines"])
+        assert hlr.draw(tray, view, scale=1, hidden=False).group is None
+    wide, narrow = group or LINE_GROUPS[1]
+    assert wall_mm - 0.5 * (wide + narrow) > 0.1
+
+
 def test_widths_that_are_asked_for_stay():
     model, view = MODELS["fins"]
     for style in ({"wide": 0.5}, "asme"):

@@ -157,13 +157,13 @@ impl Lines {
         Ok(Lines::of(Drawn(lines.collect())))
     }
 
-    /// Of hidden and of visible lines: ink by its distance to the nearest line alongside, all ink, and the size of the
-    /// smallest line; None where there is too much ink.
+    /// Of hidden lines, of visible lines, and of hidden lines beside visible ones: ink by its distance to the nearest line
+    /// alongside, all ink, and the size of the smallest line; None where there is too much ink.
     fn spacings<'py>(
         &self,
         py: Python<'py>,
-        reaches: [f64; 2],
-    ) -> PyResult<(Option<Spacing<'py>>, Option<Spacing<'py>>)> {
+        reaches: [f64; 3],
+    ) -> PyResult<(Option<Spacing<'py>>, Option<Spacing<'py>>, Option<Spacing<'py>>)> {
         for reach in reaches {
             width("reach", reach)?;
         }

@@ -33,21 +33,29 @@ pub struct Spacing {
     pub smallest: f64,
 }
 
-/// Of hidden and of visible lines; reaches: as below, for each.
-pub fn spacings(lines: &Lines, reaches: [f64; 2]) -> [Option<Spacing>; 2] {
-    let [hidden, visible] = reaches;
-    rayon::join(|| spacing(lines, false, hidden), || spacing(lines, true, visible)).into()
+/// Of hidden lines, of visible lines, and of hidden lines beside visible ones; reaches: as below, for each.
+pub fn spacings(lines: &Lines, reaches: [f64; 3]) -> [Option<Spacing>; 3] {
+    let [hidden, visible, under] = reaches;
+    let of_hidden = || [spacing(lines, [false, false], hidden), spacing(lines, [false, true], under)];
+    let ([hidden, under], visible) = rayon::join(of_hidden, || spacing(lines, [true, true], visible));
+    [hidden, visible, under]
 }
 
-/// reach: up to which distance is looked, millimetres. None where there is too much ink to be measured.
-pub fn spacing(lines: &Lines, visible: bool, reach: f64) -> Option<Spacing> {
-    let all = segments(lines.0.iter().enumerate().filter(|(_, line)| line.visible == visible));
-    if !measurable(&all) {
+/// Of the lines of one visibility beside those of the same or of the other one: `sorts` says which are visible. reach: up
+/// to which distance is looked, millimetres. None where there is too much ink to be measured.
+pub fn spacing(lines: &Lines, sorts: [bool; 2], reach: f64) -> Option<Spacing> {
+    let [visible, beside] = sorts;
+    let of = |visible: bool| segments(lines.0.iter().enumerate().filter(move |(_, line)| line.visible == visible));
+    let all = of(visible);
+    // Nothing lies beside lines that are not there.
+    let other = if visible == beside || all.is_empty() { None } else { Some(of(beside)) };
+    let others = other.as_ref().unwrap_or(&all);
+    if !measurable(&all) || !measurable(others) {
         return None;
     }
     let chosen = lines.0.par_iter().with_min_len(ALONE).filter(|line| line.visible == visible);
     let smallest = || chosen.map(|line| size(&line.flat)).reduce(|| f64::INFINITY, f64::min);
-    let (smallest, grid) = rayon::join(smallest, || Grid::new(&all, reach * STEPS));
+    let (smallest, grid) = rayon::join(smallest, || Grid::new(others, reach * STEPS));
     let count = (reach * BINS) as usize;
     let all_ink = ink(&all);
     let step = (PIECE * STEPS).max(all_ink / PLACES);

@@ -85,16 +85,30 @@ fn the_order_of_lines_does_not_matter() {
 
 #[test]
 fn spacing_counts_lines_alongside_and_neither_crossings_nor_what_goes_on() {
-    let found = spacing(&comb(3, 1.0), true, 1.0).expect("little ink");
+    let found = spacing(&comb(3, 1.0), [true; 2], 1.0).expect("little ink");
     assert_eq!((found.ink, found.bins[16], found.smallest), (60.0, 60.0, 20.0));
     let cross = Lines(vec![
         line(vec![[0.0, 0.0], [10.0, 0.0]]),
         line(vec![[10.0, 0.0], [20.0, 0.0]]),
         line(vec![[5.0, -5.0], [5.0, 5.0]]),
     ]);
-    let found = spacing(&cross, true, 1.0).expect("little ink");
+    let found = spacing(&cross, [true; 2], 1.0).expect("little ink");
     assert_eq!(found.bins.iter().sum::<f64>(), 0.0);
-    assert!(spacing(&Lines(vec![line(vec![[0.0, 0.0], [1e9, 0.0]])]), true, 1.0).is_none());
+    assert!(spacing(&Lines(vec![line(vec![[0.0, 0.0], [1e9, 0.0]])]), [true; 2], 1.0).is_none());
+}
+
+#[test]
+fn hidden_lines_are_measured_beside_visible_ones() {
+    let mut lines = comb(3, 1.0);
+    lines.0[1].visible = false;
+    let found = spacing(&lines, [false, true], 1.0).expect("little ink");
+    assert_eq!((found.ink, found.bins[16], found.bins.iter().sum::<f64>()), (20.0, 20.0, 20.0));
+    // The visible ones are two pens apart from one another.
+    assert_eq!(spacing(&lines, [true; 2], 1.0).map(|found| found.bins[32]), Some(40.0));
+    lines.0.retain(|line| !line.visible);
+    assert_eq!(spacing(&lines, [false, true], 1.0).map(|found| found.bins.iter().sum()), Some(0.0));
+    lines.0[0].visible = true;
+    assert_eq!(spacing(&lines, [false, true], 1.0).map(|found| found.ink), Some(0.0));
 }
 
 #[test]
@@ -103,12 +117,12 @@ fn all_ink_of_a_line_is_counted_however_many_chords_it_has() {
     let ink = |chords: usize| {
         let at = |k: usize| 20.0 * k as f64 / chords as f64;
         let along = |y: f64| line((0..=chords).map(|k| [at(k), y]).collect());
-        spacing(&Lines(vec![along(0.0), along(1.0)]), true, 2.0).expect("little ink").bins[64]
+        spacing(&Lines(vec![along(0.0), along(1.0)]), [true; 2], 2.0).expect("little ink").bins[64]
     };
     assert_eq!([1, 2, 20, 640].map(ink), [40.0; 4]);
     // So it is where a place lies in the last of its chords, or each chord is shorter than a piece.
     let uneven = line([0.0, 0.1, 0.15, 7.3, 19.99, 20.0].map(|x| [x, 0.0]).to_vec());
-    let found = spacing(&Lines(vec![uneven, line(vec![[0.0, 1.0], [20.0, 1.0]])]), true, 2.0).expect("little ink");
+    let found = spacing(&Lines(vec![uneven, line(vec![[0.0, 1.0], [20.0, 1.0]])]), [true; 2], 2.0).expect("little ink");
     assert!((found.bins[64] - 40.0).abs() < 0.01);
 }
 
