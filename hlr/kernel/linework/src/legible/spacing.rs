@@ -33,45 +33,44 @@ pub struct Spacing {
     pub smallest: f64,
 }
 
-/// Of hidden lines, of visible lines, and of hidden lines beside visible ones; reaches: as below, for each.
+/// Of hidden lines, of visible lines, and of hidden lines beside visible ones; reaches: for each, up to which distance is
+/// looked, millimetres. None where there is too much ink to be measured.
 pub fn spacings(lines: &Lines, reaches: [f64; 3]) -> [Option<Spacing>; 3] {
-    let [hidden, visible, under] = reaches;
-    let of_hidden = || [spacing(lines, [false, false], hidden), spacing(lines, [false, true], under)];
-    let ([hidden, under], visible) = rayon::join(of_hidden, || spacing(lines, [true, true], visible));
+    let of = |visible: bool| segments(lines.0.iter().enumerate().filter(move |(_, line)| line.visible == visible));
+    let ink = rayon::join(|| of(false), || of(true));
+    let [hidden, visible] = [&ink.0, &ink.1].map(|segments| measurable(segments).then_some(&segments[..]));
+    let grids = rayon::join(
+        || hidden.map(|segments| Grid::new(segments, reaches[0] * STEPS)),
+        || visible.map(|segments| Grid::new(segments, reaches[1] * STEPS)),
+    );
+    let measured = |own: Option<&[Segment]>, beside: &Option<Grid>, is_visible: bool, reach: f64| {
+        Some(spacing(lines, is_visible, own?, beside.as_ref()?, reach))
+    };
+    let of_hidden = || [measured(hidden, &grids.0, false, reaches[0]), measured(hidden, &grids.1, false, reaches[2])];
+    let ([hidden, under], visible) = rayon::join(of_hidden, || measured(visible, &grids.1, true, reaches[1]));
     [hidden, visible, under]
 }
 
-/// Of the lines of one visibility beside those of the same or of the other one: `sorts` says which are visible. reach: up
-/// to which distance is looked, millimetres. None where there is too much ink to be measured.
-pub fn spacing(lines: &Lines, sorts: [bool; 2], reach: f64) -> Option<Spacing> {
-    let [visible, beside] = sorts;
-    let of = |visible: bool| segments(lines.0.iter().enumerate().filter(move |(_, line)| line.visible == visible));
-    let all = of(visible);
-    // Nothing lies beside lines that are not there.
-    let other = if visible == beside || all.is_empty() { None } else { Some(of(beside)) };
-    let others = other.as_ref().unwrap_or(&all);
-    if !measurable(&all) || !measurable(others) {
-        return None;
-    }
+/// Of the lines of one visibility, which `own` are of, beside those of a grid.
+fn spacing(lines: &Lines, visible: bool, own: &[Segment], grid: &Grid, reach: f64) -> Spacing {
     let chosen = lines.0.par_iter().with_min_len(ALONE).filter(|line| line.visible == visible);
-    let smallest = || chosen.map(|line| size(&line.flat)).reduce(|| f64::INFINITY, f64::min);
-    let (smallest, grid) = rayon::join(smallest, || Grid::new(others, reach * STEPS));
+    let smallest = chosen.map(|line| size(&line.flat)).reduce(|| f64::INFINITY, f64::min);
     let count = (reach * BINS) as usize;
-    let all_ink = ink(&all);
+    let all_ink = ink(own);
     let step = (PIECE * STEPS).max(all_ink / PLACES);
-    let of_lines: Vec<&[Segment]> = all.chunk_by(|a, b| a.line == b.line).collect();
+    let of_lines: Vec<&[Segment]> = own.chunk_by(|a, b| a.line == b.line).collect();
     let bins = of_lines
         .par_iter()
         .with_min_len(ALONE)
         .fold(
             || vec![0u64; count],
             |mut bins, line| {
-                add(&grid, line, step, reach * STEPS, &mut bins);
+                add(grid, line, step, reach * STEPS, &mut bins);
                 bins
             },
         )
         .reduce(|| vec![0u64; count], |a, b| a.iter().zip(&b).map(|(x, y)| x + y).collect());
-    Some(Spacing { bins: bins.into_iter().map(|steps| steps as f64 / STEPS).collect(), ink: all_ink / STEPS, smallest })
+    Spacing { bins: bins.into_iter().map(|steps| steps as f64 / STEPS).collect(), ink: all_ink / STEPS, smallest }
 }
 
 /// The side of the square that holds all points, millimetres.

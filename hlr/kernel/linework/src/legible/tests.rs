@@ -3,7 +3,7 @@
 use super::grid::STEPS;
 use super::joints::joined;
 use super::left_out::{Fate, left_out};
-use super::spacing::spacing;
+use super::spacing::{Spacing, spacings};
 use crate::fit::plane::Vec2;
 use crate::lines::drawing::{Kind, Line, Lines};
 
@@ -19,6 +19,16 @@ fn line(flat: Vec<Vec2>) -> Line {
 fn comb(count: usize, pens: f64) -> Lines {
     let tooth = |i: usize| line(vec![[i as f64 * pens * PEN, 0.0], [i as f64 * pens * PEN, 20.0]]);
     Lines((0..count).map(tooth).collect())
+}
+
+/// Of the lines of one visibility beside those of the same or of the other one.
+fn spacing(lines: &Lines, sorts: [bool; 2], reach: f64) -> Option<Spacing> {
+    let [hidden, visible, under] = spacings(lines, [reach; 3]);
+    match sorts {
+        [true, _] => visible,
+        [false, false] => hidden,
+        [false, true] => under,
+    }
 }
 
 fn fates(lines: &Lines) -> Vec<Fate> {
