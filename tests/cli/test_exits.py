@@ -164,7 +164,7 @@ def ended(command, output):
 @pytest.mark.parametrize("arguments", PRINTING)
 def test_text_for_a_full_standard_output_is_an_error(arguments):
     with open("/dev/full", "wb") as full:
-        done = ended([sys.executable, "-m", "hlr", *arguments], full)
+        done = ended([sys.executable, "-P", "-m", "hlr", *arguments], full)
     assert done.stderr == b"hlr: cannot write to standard output: no space left on device.\n"
     assert done.returncode == 2
 
@@ -174,7 +174,7 @@ def test_text_for_a_full_standard_output_is_an_error(arguments):
 def test_text_that_nobody_reads_is_no_error(arguments):
     reading, writing = os.pipe()
     os.close(reading)
-    done = ended([sys.executable, "-m", "hlr", *arguments], writing)
+    done = ended([sys.executable, "-P", "-m", "hlr", *arguments], writing)
     os.close(writing)
     assert (done.returncode, done.stderr) == (-signal.SIGPIPE, b"")
 
