@@ -28,7 +28,8 @@ struct Tie {
     border: bool,
 }
 
-/// Replaces the values at nodes in wrinkles by one from around them. Wrinkles that reach the border of their face stay.
+/// Replaces the values at nodes in wrinkles by one from around them. Wrinkles that reach the border of their face stay, and
+/// those at a pole: how far it rises there the nodes do not tell.
 pub fn flatten(model: &Model, values: &mut [f64]) {
     let ties = ties(model, values);
     let away = |n: u32| values[n as usize] >= -TIE;
@@ -49,6 +50,9 @@ pub fn flatten(model: &Model, values: &mut [f64]) {
             wide[patch[n]] |= tie.border || values[n].abs() <= TIE;
             rim[n] |= apart;
         }
+    }
+    for n in beside_poles(model, values) {
+        wide[patch[n as usize]] = true;
     }
     let mut around = vec![f64::NEG_INFINITY; values.len()];
     for tie in &ties {
@@ -101,6 +105,17 @@ fn turns_back(face: &Face, model: &Model, node: usize, f: f64) -> bool {
             face.f(uv).is_some_and(|here| here.is_finite() && (here > 0.0) != (f > 0.0))
         })
     })
+}
+
+/// Nodes with a value in triangles that have a pole; the values of other triangles say nothing of theirs.
+fn beside_poles<'a>(model: &'a Model, values: &'a [f64]) -> impl Iterator<Item = i32> + 'a {
+    let traced = |corners: &[i32; 3], face: i32| {
+        let record = &model.faces[face as usize];
+        record.curved && record.surface.is_some() && corners.iter().any(|&n| n >= 0 && values[n as usize].is_nan())
+    };
+    let there = model.corner.iter().zip(model.triangle_face).filter(move |&(corners, &face)| traced(corners, face));
+    let nodes = there.flat_map(|(corners, _)| corners.iter().copied());
+    nodes.filter(|&n| n >= 0 && values[n as usize].is_finite())
 }
 
 /// The ties between nodes with a value; NaN is the value of a pole, and of nodes of faces that are not traced.
