@@ -157,7 +157,7 @@ class _Asked:
 
     @property
     def names_sources(self) -> bool:
-        """Whether sources are named, and no folder with a manifest."""
+        """Whether files, folders or patterns are named."""
         return bool(self._sources)
 
     def plan(self) -> Plan:

@@ -69,21 +69,21 @@ def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
 def _sources(manifest: Manifest, rule: Rule, output: Path, silent: list[Path]) -> list[Path]:
     """The sources of a rule. silent: gets the scripts that show nothing, as of `models_under`."""
     root, patterns, exclude = manifest.root, listed(rule.values["files"]), listed(rule.values["exclude"])
-    quiet: list[Path] = []
-    found = [] if patterns else list(models_under(root, quiet))
+    unshown: list[Path] = []
+    found = [] if patterns else list(models_under(root, unshown))
     for pattern in patterns:
-        files = named(root, pattern, quiet)
+        files = named(root, pattern, unshown)
         if not files:
             raise manifest.error((*rule.where, "files"), f"{pattern} names no model under {root}")
         found += files
     outside = [path for path in dict.fromkeys(found) if not path.is_relative_to(output)]
     kept = without(outside, exclude, root)
-    quiet = [path for path in without(quiet, exclude, root) if not path.is_relative_to(output)]
-    silent += quiet
+    unshown = [path for path in without(unshown, exclude, root) if not path.is_relative_to(output)]
+    silent += unshown
     if not kept:
         why = f"there is no model under {root}"
-        if quiet:
-            why += f"; {shows_nothing(quiet)}"
+        if unshown:
+            why += f"; {shows_nothing(unshown)}"
         if found and not outside:
             why = f"all models lie in the folder of outputs, {output}: give another one"
         elif outside:

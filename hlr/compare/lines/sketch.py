@@ -36,8 +36,8 @@ class Trait:
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
-    """How a model was seen, in its own coordinates.
+class StatedView:
+    """The view of a model that a drawing states, in the coordinates of the model.
 
     direction   from the object toward the viewer
     eye, target  in perspective
@@ -59,7 +59,7 @@ class About:
     views     names of the views of a page; empty: one view
     foreign   whether another program drew it
     left_out  what of the file is no line of the drawing, counted
-    seen      how its model was seen; None: the drawing does not say it
+    stated    the view that it states; None: it states none
     view_found  the view of a model, where it was not said: the one that the other side shows
     """
 
@@ -68,7 +68,7 @@ class About:
     views: tuple[str, ...] = ()
     foreign: bool = False
     left_out: dict[str, int] = field(default_factory=dict)
-    seen: Seen | None = None
+    stated: StatedView | None = None
     view_found: str | None = None
 
 

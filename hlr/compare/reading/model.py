@@ -12,8 +12,8 @@ import numpy as np
 
 from hlr.compare.lines.pieces import Pieces
 from hlr.compare.matching.match import Rule, divided_by
-from hlr.compare.reading.camera import as_seen
 from hlr.compare.reading.sides import Behind, Side, is_drawing, side_of
+from hlr.compare.reading.stated_view import as_stated
 from hlr.compare.reading.view import Fit, found_view
 from hlr.errors import OptionError
 from hlr.pipeline.draw import draw_views
@@ -80,17 +80,17 @@ def side_of_model(given: Any, other: Side | None, tolerance_mm: float, view: Vie
     source = open_source(given)
     options = _options(other, tolerance_mm)
     fit = Fit(view or "iso", 1.0)
-    how = other.about.seen if other is not None and view is None else None
-    if how is not None:
-        stated, options = as_seen(how, source.frame, options)
-        fit = Fit(stated, 1.0)
+    stated = other.about.stated if other is not None and view is None else None
+    if stated is not None:
+        direction, options = as_stated(stated, source.frame, options)
+        fit = Fit(direction, 1.0)
     elif other is not None and (view is None or other.about.scale is None):
         fit = found_view(source, options, other, [] if view is None else [view])
     scale = other.about.scale if other is not None and other.about.scale is not None else _nice(fit.scale)
     drawing = draw_views(source, [fit.view], replace(options, scale=scale))[0]
     side = side_of(drawing, tolerance_mm)
     name = Path(given).name if isinstance(given, str | os.PathLike) else source.name
-    shown = drawing.view.name if how is None else how.name
+    shown = drawing.view.name if stated is None else stated.name
     about = replace(side.about, view_found=shown if view is None and other is not None else None)
     return replace(side, title=f"{name}, {shown}", about=about, behind=Behind(source, drawing, to_suit=True))
 

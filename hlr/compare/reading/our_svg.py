@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from hlr.compare.lines.sketch import About, Sketch, Trait
 from hlr.compare.lines.views import views_of_parts
-from hlr.compare.reading.camera import seen_in
 from hlr.compare.reading.path_data import add_path
+from hlr.compare.reading.stated_view import stated_in
 from hlr.compare.reading.svg_elements import SVG
 from hlr.request.scale import scale_of
 from hlr.tables.line_classes import LINE_CLASSES
@@ -28,8 +28,8 @@ def about_ours(root: Element) -> About | None:
     if ours is None:
         return None
     parts, views = (tuple(each.get("name", "") for each in ours.iter(f"{_OURS}{tag}")) for tag in ("part", "view"))
-    how = None if views else seen_in(ours.get("view"), ours.attrib)
-    return About(parts, scale_of(ours.get("scale", "")), views, seen=how)
+    stated = None if views else stated_in(ours.get("view"), ours.attrib)
+    return About(parts, scale_of(ours.get("scale", "")), views, stated=stated)
 
 
 def read_ours(root: Element, about: About, sketch: Sketch) -> None:

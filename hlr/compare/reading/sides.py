@@ -13,7 +13,7 @@ import numpy as np
 from hlr.compare.lines.pieces import Floats, Pieces
 from hlr.compare.lines.sketch import About, Sketch, Trait
 from hlr.compare.lines.views import views_of_parts
-from hlr.compare.reading.camera import seen
+from hlr.compare.reading.stated_view import stated_by
 from hlr.compare.reading.svg import read_svg
 from hlr.drawing.curve import Arc, raised
 from hlr.drawing.drawing import Drawing
@@ -132,7 +132,7 @@ def _read_drawing(drawing: Drawing, sketch: Sketch) -> About:
                 sketch.cubic(*points[k : k + 4])
     if drawing.sheet is not None:
         return About(parts, None, views)
-    return About(parts, drawing.scale, views, seen=seen(drawing.view))
+    return About(parts, drawing.scale, views, stated=stated_by(drawing.view))
 
 
 def _read_dxf(path: Path, sketch: Sketch) -> About:

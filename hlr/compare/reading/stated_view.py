@@ -1,4 +1,4 @@
-"""How a drawing of ours says that its model was seen: a model beside it is drawn so."""
+"""The view that a drawing of ours states: a model beside it is drawn so."""
 
 from __future__ import annotations
 
@@ -6,23 +6,23 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from hlr.compare.lines.sketch import Seen
+from hlr.compare.lines.sketch import StatedView
 from hlr.drawing.drawing import DrawnView
 from hlr.request.options import Options, Perspective, Vector, View
 from hlr.source.model import Frame
 
 
-def seen(view: DrawnView) -> Seen:
+def stated_by(view: DrawnView) -> StatedView:
     """Of a drawing in memory."""
-    return Seen(view.name, view.direction, view.up, view.eye, view.target)
+    return StatedView(view.name, view.direction, view.up, view.eye, view.target)
 
 
-def seen_in(name: str | None, fields: Mapping[str, str]) -> Seen | None:
+def stated_in(name: str | None, fields: Mapping[str, str]) -> StatedView | None:
     """Of a file: its vectors as texts. None where it does not say them. Raises ValueError where they are no vectors."""
     if name is None or "direction" not in fields or "up" not in fields:
         return None
     eye, target = (_vector(fields[key]) if key in fields else None for key in ("eye", "target"))
-    return Seen(name, _vector(fields["direction"]), _vector(fields["up"]), eye, target)
+    return StatedView(name, _vector(fields["direction"]), _vector(fields["up"]), eye, target)
 
 
 def _vector(text: str) -> Vector:
@@ -32,12 +32,12 @@ def _vector(text: str) -> Vector:
     return (x, y, z)
 
 
-def as_seen(how: Seen, frame: Frame, options: Options) -> tuple[View, Options]:
+def as_stated(stated: StatedView, frame: Frame, options: Options) -> tuple[View, Options]:
     """The view of a model in this frame, and the options with what the view does not say."""
-    up, direction = _to_world(how.up, frame), _to_world(how.direction, frame)
-    if how.eye is not None:
-        target = None if how.target is None else _millimetres(how.target, frame)
-        camera = Perspective(eye=_millimetres(how.eye, frame), target=target)
+    up, direction = _to_world(stated.up, frame), _to_world(stated.direction, frame)
+    if stated.eye is not None:
+        target = None if stated.target is None else _millimetres(stated.target, frame)
+        camera = Perspective(eye=_millimetres(stated.eye, frame), target=target)
         return direction, replace(options, up=up, perspective=camera)
     return direction, replace(options, up=up)
 
