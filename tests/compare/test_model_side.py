@@ -39,6 +39,7 @@ STATED = {
     "a direction": {"view": (1, 2, 0.5)},
     "turned on paper": {"view": "front", "up": (1, 0, 1)},
     "in perspective": {"view": "iso", "perspective": hlr.Perspective()},
+    "toward the origin": {"perspective": hlr.Perspective(eye=(60, 90, 50), target=(0, 0, 0))},
     "from an eye": {"perspective": hlr.Perspective(eye=(60, 90, 50), target=(3, 2, 1))},
 }
 

@@ -22,13 +22,16 @@ def stated_in(name: str | None, fields: Mapping[str, str]) -> StatedView | None:
     if name is None or "direction" not in fields or "up" not in fields:
         return None
     eye, target = (_vector(fields[key]) if key in fields else None for key in ("eye", "target"))
-    return StatedView(name, _vector(fields["direction"]), _vector(fields["up"]), eye, target)
+    direction, up = (_vector(fields[key]) for key in ("direction", "up"))
+    if not any(direction) or not any(up):
+        raise ValueError("a direction is zero")
+    return StatedView(name, direction, up, eye, target)
 
 
 def _vector(text: str) -> Vector:
     x, y, z = map(float, text.split())
-    if not all(map(math.isfinite, (x, y, z))) or not any((x, y, z)):
-        raise ValueError(f"{text} is no direction and no place")
+    if not all(map(math.isfinite, (x, y, z))):
+        raise ValueError(f"{text} is no vector")
     return (x, y, z)
 
 
