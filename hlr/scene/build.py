@@ -49,7 +49,9 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         reliable = reliable_normals(mesh, points, tables.triangles, found.triangle_part, tables.precision)
         turned = found.turned
         facets = reliable.normals if turned is None else np.where(turned[:, None], -reliable.normals, reliable.normals)
-        crease_kind = creases(mesh, reliable.fold, edge_part, ~brep, crease, points, _sizes(found, len(brep)))
+        crease_kind = creases(
+            mesh, tables.triangles, reliable.fold, edge_part, ~brep, crease, points, _sizes(found, len(brep))
+        )
         chains = merge_chains(chains, crease_chains(points, edges, crease_kind, edge_part))
         kind = kind.copy()
         np.copyto(kind[: len(crease_kind)], crease_kind, where=crease_kind != INTERIOR)

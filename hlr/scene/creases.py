@@ -16,6 +16,7 @@ from hlr import _kernel
 from hlr._kernel import MeshFacts
 from hlr.common.types import Floats, Ints
 from hlr.scene.chains import STRAIGHT_ON
+from hlr.scene.fading_creases import fading_edges
 from hlr.tables.line_classes import EdgeClass
 
 Bools = npt.NDArray[np.bool_]
@@ -50,12 +51,19 @@ A crease of a part that was meshed coarsely may be a single edge, clear nowhere:
 
 
 def creases(
-    mesh: MeshFacts, fold: Floats, edge_part: Ints, bare: Bools, crease: float, points: Floats, sizes: Floats
+    mesh: MeshFacts,
+    triangles: Ints,
+    fold: Floats,
+    edge_part: Ints,
+    bare: Bools,
+    crease: float,
+    points: Floats,
+    sizes: Floats,
 ) -> Kinds:
     """(e,) EdgeClass SHARP or BOUNDARY, or 255, for the edges of bare meshes, from the fold angle (degrees).
 
-    fold (e,): its cosines, as far as the coordinates support any; edge_part (e,); bare, sizes: per part, the latter the
-    diagonal of its box.
+    triangles (t, 3) of `mesh`; fold (e,): its cosines, as far as the coordinates support any; edge_part (e,); bare,
+    sizes: per part, the latter the diagonal of its box.
     """
     sharp, near_fold = _cosine(crease - SLACK), _cosine(NEAR_FOLD * crease)
     kind, near = _kernel.edge_kinds(mesh.offsets, fold, edge_part, bare, sharp, near_fold)
@@ -66,6 +74,7 @@ def creases(
         long = (ways * ways).sum(axis=1) >= (LONG_EDGE * sizes[edge_part[lone]]) ** 2
         lone = lone[~np.isin(figure, figure[long])]
     kind[lone] = 255
+    kind[fading_edges(kind, mesh, triangles, fold, points)] = EdgeClass.SHARP
     return kind
 
 

@@ -26,24 +26,30 @@ def prism(sides: int) -> tuple[np.ndarray, np.ndarray]:
     return points.astype(np.float32).astype(float), np.array(faces)
 
 
-def ridge(folds: list[float], y: list[float] | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """A sheet with a ridge along the middle, that folds by so many degrees at each of its places; y: where they are."""
+def ridge(folds: list[float], y: list[float] | None = None, facets: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    """A sheet with a ridge along the middle, that folds by so many degrees at each of its places; y: where they are.
+
+    The outer strips level out gently. facets: they fall away instead, by more than half the fold of the ridge, as the
+    facets of a round face do.
+    """
     x = np.array([-40.0, -20.0, 0.0, 20.0, 40.0])
     y = 10.0 * np.arange(len(folds)) if y is None else np.array(y)
-    # Only the middle strip is bent; the outer ones level out gently.
     slope = np.tan(np.radians(np.array(folds) / 2))
-    z = np.stack([-0.9 * 20 * slope - 20 * 0.5 * slope, -20 * slope, 0 * slope, -20 * slope, -1.4 * 20 * slope], axis=0)
+    outer = 3.4 if facets else 1.4
+    z = np.stack([-outer * 20 * slope, -20 * slope, 0 * slope, -20 * slope, -outer * 20 * slope], axis=0)
     points = np.stack([np.repeat(x, len(y)), np.tile(y, 5), z.ravel()], axis=1)
     at = np.arange(len(points)).reshape(5, len(y))
     a, b, c, d = at[:-1, :-1].ravel(), at[1:, :-1].ravel(), at[1:, 1:].ravel(), at[:-1, 1:].ravel()
     return points, np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
 
 
-def sharp(source: object, **options: object) -> float:
-    """Millimetres of creases."""
+def sharp(source: object, within: float = np.inf, **options: object) -> float:
+    """Millimetres of creases; within: of those at most so far from x = 0."""
     drawing = hlr.draw(source, "iso", **AT_SIZE | options)
-    steps = (np.diff(line.points3, axis=0) for line in drawing.lines if line.kind == "sharp")
-    return sum(float(np.sqrt((step**2).sum(axis=1)).sum()) for step in steps)
+    lines = [
+        line.points3 for line in drawing.lines if line.kind == "sharp" and (abs(line.points3[:, 0]) <= within).all()
+    ]
+    return sum(float(np.sqrt((np.diff(line, axis=0) ** 2).sum(axis=1)).sum()) for line in lines)
 
 
 def rims(sides: int) -> float:
@@ -91,12 +97,19 @@ RISE = [0, 15, 33, 45, 60, 60, 45, 33]
 """Folds of a ridge that begins in a smooth surface;"""
 
 
-def test_a_crease_that_fades_ends_there() -> None:
+def test_a_crease_that_fades_into_facets_ends_there() -> None:
     # Beyond the clear part the fold stays near the limit for a while: no other crease begins there.
-    assert sharp(ridge([*RISE, *[28] * 6, 15, 0])) == pytest.approx(sharp(ridge([*RISE, 28, 15, 0])), rel=0.01)
+    short, long = ([*RISE, *[28] * n, 15, 0] for n in (1, 6))
+    assert sharp(ridge(long, facets=True), 1.0) == pytest.approx(sharp(ridge(short, facets=True), 1.0), rel=0.01)
+
+
+def test_a_crease_that_fades_goes_on_while_it_stands_out() -> None:
+    short, long = ([*RISE, *[28] * n, 15, 0] for n in (1, 6))
+    assert sharp(ridge(long)) - sharp(ridge(short)) > 3 * 10.0
 
 
 @pytest.mark.parametrize(("gap", "closed"), [(3, True), (12, False)])
 def test_a_gap_longer_than_its_creases_stays_open(gap: int, closed: bool) -> None:
-    drawn, creases = sharp(ridge([*RISE, *[28] * gap, *RISE[::-1]])), 2 * sharp(ridge([*RISE, 28, 15, 0]))
+    whole, half = [*RISE, *[28] * gap, *RISE[::-1]], [*RISE, 28, 15, 0]
+    drawn, creases = sharp(ridge(whole, facets=True), 1.0), 2 * sharp(ridge(half, facets=True), 1.0)
     assert drawn == pytest.approx(creases + 10.0 * (gap - 1) * closed, rel=0.1)

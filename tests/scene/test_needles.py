@@ -6,34 +6,14 @@ import numpy as np
 import pytest
 
 from hlr.scene import needles
-from hlr.source.model import PartMesh
-from hlr.source.part_meshes import combine_parts
+from support.meshes import mesh_facts
 
 STEP = 1e-6
 
 
-def facts(points, triangles):
-    points, triangles = np.array(points, float), np.array(triangles, np.int32)
-    none = np.zeros(0, np.int32)
-    part = PartMesh(
-        name="part",
-        color=None,
-        transform=np.eye(4),
-        points=points,
-        triangles=triangles,
-        triangle_face=np.zeros(len(triangles), np.int32),
-        face_planar=np.zeros(1, bool),
-        edge_nodes=none,
-        edge_offsets=np.zeros(1, np.int32),
-        edge_index=none,
-        edge_class=none.astype(np.uint8),
-        brep=False,
-    )
-    return combine_parts([part]).tables.facts(), points, triangles
-
-
 def supported(points, triangles, precision=0.0):
-    mesh, points, triangles = facts(points, triangles)
+    points, triangles = np.array(points, float), np.array(triangles, np.int32)
+    mesh = mesh_facts(points, triangles)
     given = np.broadcast_to(np.asarray(precision, float), len(triangles)).copy()
     # Each triangle as a part of its own.
     found = needles.reliable_normals(mesh, points, triangles, np.arange(len(triangles), dtype=np.int32), given)

@@ -9,6 +9,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from hlr._kernel import MeshFacts
+from hlr.source.model import PartMesh
+from hlr.source.part_meshes import combine_parts
+
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]
 Mesh = tuple[Floats, Ints]
@@ -146,3 +150,23 @@ def sharp_edges(mesh: Mesh, crease: float = 30.0) -> list[tuple[int, int]]:
         return bool(normal[s] @ normal[t] * -a * b > limit * size[s] * size[t])
 
     return [edge for edge, uses in found.items() if len(uses) != 2 or not flat(uses)]
+
+
+def mesh_facts(points: Floats, triangles: Ints) -> MeshFacts:
+    """The edges of a mesh without B-rep; points (n, 3), triangles (t, 3)."""
+    none = np.zeros(0, np.int32)
+    part = PartMesh(
+        name="part",
+        color=None,
+        transform=np.eye(4),
+        points=points,
+        triangles=triangles,
+        triangle_face=np.zeros(len(triangles), np.int32),
+        face_planar=np.zeros(1, bool),
+        edge_nodes=none,
+        edge_offsets=np.zeros(1, np.int32),
+        edge_index=none,
+        edge_class=none.astype(np.uint8),
+        brep=False,
+    )
+    return combine_parts([part]).tables.facts()

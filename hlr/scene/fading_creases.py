@@ -1,0 +1,173 @@
+"""Creases of meshes that fade out: where two pipes of one size meet, the fold falls from 90 degrees to nothing.
+
+Below the crease angle, the fold alone does not tell a crease from the facets of a curved face. It is a crease still
+where it goes straight on from one, is not much smaller than the fold before, and far larger than every fold beside it.
+The last bit, where nothing tells it from a facet, is drawn if two creases face each other across it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr import _kernel
+from hlr._kernel import MeshFacts
+from hlr.common.types import Floats, Ints
+from hlr.tables.line_classes import EdgeClass
+
+LEAST_FOLD = 4.0
+"""Degrees: a crease is not followed below this fold."""
+
+STANDS_OUT = 2.0
+"""A fold on the way is at least this many times each other fold at the corners of its two triangles."""
+
+FADES = 0.5
+"""A fold on the way is at least this share of the fold before it: a crease fades, and does not break off."""
+
+STRAIGHT = 15.0
+"""Degrees: from edge to edge, a crease that fades turns by no more than this."""
+
+LONG_ENOUGH = 4
+"""Only creases of at least this many edges are followed: the direction of a shorter one may be chance."""
+
+GAP = 0.2
+"""Creases that face each other are joined across a gap of up to this share of the shorter one's length."""
+
+GAP_EDGES = 6
+"""A gap has at most as many edges."""
+
+Kinds = npt.NDArray[np.uint8]
+
+
+@dataclass
+class _End:
+    """The open end of a crease: the vertex before it, the vertex it ends at, and its fold there in degrees."""
+
+    before: int
+    vertex: int
+    fold: float = 0.0
+    length: float = 0.0
+    """Of the whole crease, in model units."""
+    way: list[int] = field(default_factory=list)
+    """The edges on which it goes on."""
+
+    def step(self, edge: int, other: int, fold: float) -> None:
+        self.before, self.vertex, self.fold = self.vertex, other, fold
+        self.way.append(edge)
+
+
+class _Around:
+    """Edges around each vertex, of those that were chosen."""
+
+    def __init__(self, chosen: Ints, edges: Ints, points: Floats) -> None:
+        ends = edges[chosen]
+        vertex = ends.ravel(order="F")
+        order = np.argsort(vertex, kind="stable")
+        self._points = points
+        self._vertex = vertex[order]
+        self._edge = np.tile(chosen, 2)[order]
+        self._other = ends[:, ::-1].ravel(order="F")[order]
+
+    def at(self, vertex: int) -> list[tuple[int, int]]:
+        """(edge, its other vertex) of each."""
+        first, last = np.searchsorted(self._vertex, [vertex, vertex + 1])
+        return list(zip(self._edge[first:last].tolist(), self._other[first:last].tolist(), strict=True))
+
+    def straight_on(self, end: _End) -> tuple[int, int] | None:
+        """The edge that goes on most nearly straight, and its other vertex."""
+        turns = [(self.turn(end, other), edge, other) for edge, other in self.at(end.vertex) if other != end.before]
+        turn, edge, other = min(turns, default=(180.0, -1, -1))
+        return (edge, other) if turn <= STRAIGHT else None
+
+    def turn(self, end: _End, to: int) -> float:
+        """Degrees by which the way to the vertex `to` turns from the crease."""
+        a = self._points[end.vertex] - self._points[end.before]
+        b = self._points[to] - self._points[end.vertex]
+        return math.degrees(math.atan2(float(np.linalg.norm(np.cross(a, b))), float(a @ b)))
+
+
+def fading_edges(kind: Kinds, mesh: MeshFacts, triangles: Ints, fold: Floats, points: Floats) -> list[int]:
+    """Edges on which the creases go on below the crease angle, each once.
+
+    kind (e,): 255 where an edge is no crease; triangles (t, 3) of `mesh`; fold (e,): cosines; points (n, 3).
+    """
+    ends = _open_ends(kind, mesh.edges, fold, points)
+    if not ends:
+        return []
+    found = _followed(ends, kind, mesh, triangles, fold, points)
+    return sorted({*found, *_joined(ends, kind, mesh.edges, points)})
+
+
+def _open_ends(kind: Kinds, edges: Ints, fold: Floats, points: Floats) -> list[_End]:
+    chosen = np.flatnonzero(kind != 255)
+    if not len(chosen):
+        return []
+    ends = edges[chosen]
+    degree = np.bincount(ends.ravel(), minlength=len(points))
+    at_end = np.flatnonzero((degree[ends] == 1).any(axis=1) & (kind[chosen] == EdgeClass.SHARP))
+    if not len(at_end):
+        return []
+    crease = _kernel.edge_components(np.ascontiguousarray(ends), len(points))
+    ways = points[ends[:, 1]] - points[ends[:, 0]]
+    length = np.bincount(crease, weights=np.sqrt((ways * ways).sum(axis=1)))
+    count = np.bincount(crease)
+    found = []
+    for i in at_end[count[crease[at_end]] >= LONG_ENOUGH].tolist():
+        a, b = ends[i].tolist()
+        angle = _degrees(float(fold[chosen[i]]))
+        for before, end in ((a, b), (b, a)):
+            if degree[end] == 1:
+                found.append(_End(before, end, angle, float(length[crease[i]])))
+    return found
+
+
+def _followed(
+    ends: list[_End], kind: Kinds, mesh: MeshFacts, triangles: Ints, fold: Floats, points: Floats
+) -> list[int]:
+    """Follows each crease while its fold stands out. The ends move on."""
+    folded = np.flatnonzero((kind == 255) & (fold < math.cos(math.radians(LEAST_FOLD / STANDS_OUT))))
+    angle = {e: _degrees(c) for e, c in zip(folded.tolist(), fold[folded].tolist(), strict=True)}
+    around = _Around(folded.astype(np.int32), mesh.edges, points)
+    for end in ends:
+        while (on := around.straight_on(end)) is not None and on[0] not in end.way:
+            edge, other = on
+            ahead = around.straight_on(_End(end.vertex, other))
+            along = {edge, *end.way[-1:], *(ahead or ())[:1]}
+            corners = np.unique(triangles[mesh.incident[mesh.offsets[edge] : mesh.offsets[edge + 1]]]).tolist()
+            beside = max((angle[e] for v in corners for e, _ in around.at(v) if e not in along), default=0.0)
+            if angle[edge] < max(LEAST_FOLD, FADES * end.fold, STANDS_OUT * beside):
+                break
+            end.step(edge, other, angle[edge])
+    return [edge for end in ends for edge in end.way]
+
+
+def _joined(ends: list[_End], kind: Kinds, edges: Ints, points: Floats) -> list[int]:
+    """Edges of the gaps between ends that face each other."""
+    reached = np.zeros(len(points), bool)
+    reached[[end.vertex for end in ends]] = True
+    for _ in range(GAP_EDGES // 2):
+        reached[edges[reached[edges].any(axis=1)]] = True
+    inside = np.flatnonzero(reached[edges].all(axis=1) & (kind == 255)).astype(np.int32)
+    around = _Around(inside, edges, points)
+    at = {end.vertex: end for end in ends}
+    found: list[int] = []
+    for first in ends:
+        last = replace(first, way=[])
+        while len(last.way) < GAP_EDGES and (on := around.straight_on(last)) is not None:
+            last.step(*on, 0.0)
+            facing = at.get(last.vertex)
+            if facing is None:
+                continue
+            gap = sum(math.dist(*points[edges[e]]) for e in last.way)
+            straight = around.turn(_End(facing.before, facing.vertex), last.before) <= STRAIGHT
+            if facing is not first and straight and gap <= GAP * min(first.length, facing.length):
+                found += last.way
+            break
+    return found
+
+
+def _degrees(cosine: float) -> float:
+    return math.degrees(math.acos(min(max(cosine, -1.0), 1.0)))
