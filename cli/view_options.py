@@ -52,6 +52,7 @@ SIZE = (
         metavar="WxH|A4",
         help="Instead of a scale: as large as fits into a size in millimetres, or as fills a sheet: A4, A4-landscape.",
     ),
+    click.option("--same-scale", is_flag=True, help="All views have one scale: the smallest that one of them needs."),
 )
 
 WINDOW = click.option(

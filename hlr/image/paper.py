@@ -6,7 +6,7 @@ leaves the more even margins; where these are alike as well, landscape.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from hlr.drawing.notes import Note
 from hlr.drawing.scale import ratio
@@ -34,6 +34,13 @@ class OnPaper:
 def settled(options: Options) -> bool:
     """Whether the request alone tells the scale, and no sheet has to be laid one way or the other."""
     return options.scale is not None and options.page is None
+
+
+def at_scale(options: Options, scale: float) -> Options:
+    """The options with this scale (paper : model), on the sheets that they ask for without one."""
+    sheet = options.fit if isinstance(options.fit, str) else options.page
+    usual = USUAL if options.scale is None and options.fit is None else None
+    return replace(options, scale=scale, fit=None, page=sheet or usual)
 
 
 def sheets(options: Options) -> tuple[Paper, ...]:

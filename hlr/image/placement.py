@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,7 +13,7 @@ from hlr.drawing.notes import Note
 from hlr.drawing.scale import ratio
 from hlr.errors import SourceError
 from hlr.image.camera import ASPECT, NEAR, Camera
-from hlr.image.paper import on_paper, settled
+from hlr.image.paper import at_scale, on_paper, settled
 from hlr.image.strays import stray_note
 from hlr.request.accuracy import CURVE_BULGE, MOST_MAGNIFIED, Tolerances, choose, derive
 from hlr.request.options import Options
@@ -35,7 +36,7 @@ class Placement:
     aspect: width to height of the frame; magnified: how much larger than at the target the nearest point is drawn.
     paper: the sheet, the way it lies; None: the page is as large as the drawing.
     settled: the request alone tells the scale, and no sheet has to be laid one way or the other.
-    diagonal: of the drawing, millimetres on paper.
+    size: width and height on the image plane, model units.
     """
 
     scale: float
@@ -48,7 +49,12 @@ class Placement:
     notes: tuple[Note, ...] = ()
     paper: Paper | None = None
     settled: bool = False
-    diagonal: float = 0.0
+    size: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def diagonal(self) -> float:
+        """Of the drawing, millimetres on paper."""
+        return math.hypot(*self.size) * self.per_model
 
     def fitted(self, camera: Camera, options: Options, points: Floats, curved: bool) -> Placement:
         """The placement with the size taken from the mesh: points (n, 3) in model coordinates.
@@ -73,6 +79,13 @@ class Placement:
             return self
         return self._of_size(width, height, camera, options, curved=True)
 
+    def at_scale(self, scale: float, options: Options) -> Placement:
+        """The placement at another scale (paper : model), on the sheet that the options ask for."""
+        if scale == self.scale:
+            return self
+        sized = _sized(*self.size, at_scale(options, scale), self.unit, self.brep, self.aspect, self.magnified)
+        return replace(sized, notes=self.notes, settled=self.settled)
+
     def _of_size(self, width: float, height: float, camera: Camera, options: Options, curved: bool) -> Placement:
         """The placement of a drawing of this width and height, in model units."""
         if curved and options.fit is not None and not camera.framed:
@@ -82,6 +95,12 @@ class Placement:
             width, height = width + 2.0 * bulge, height + 2.0 * bulge
         sized = _sized(width, height, options, self.unit, self.brep, self.aspect, self.magnified)
         return replace(sized, notes=self.notes)
+
+
+def of_one_scale(placements: Sequence[Placement], options: Options) -> list[Placement]:
+    """The placements of all views, at one scale where the options ask for that: the smallest."""
+    least = min((placement.scale for placement in placements), default=1.0)
+    return [placement.at_scale(least, options) if options.same_scale else placement for placement in placements]
 
 
 def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> Placement:
@@ -142,7 +161,7 @@ def _sized(
     tolerances = derive(accuracy, per_model * magnified, diagonal, brep=brep)
     notes = () if options.scale is None else _size_notes(diagonal, scale)
     sheet, known = placed.paper, settled(options)
-    return Placement(scale, per_model, tolerances, unit, brep, aspect, magnified, notes, sheet, known, diagonal)
+    return Placement(scale, per_model, tolerances, unit, brep, aspect, magnified, notes, sheet, known, (width, height))
 
 
 def _size_notes(diagonal: float, scale: float) -> tuple[Note, ...]:

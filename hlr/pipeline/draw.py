@@ -9,6 +9,7 @@ from hlr.common.threads import at_most
 from hlr.common.types import Progress
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.notes import Noted
+from hlr.image.paper import at_scale
 from hlr.pipeline.session import Session, refuse_warnings
 from hlr.request.check import checked, checked_views
 from hlr.request.options import Options, Request, View
@@ -38,7 +39,8 @@ def draw_views(
         drawings = []
         for i, (view, draft) in enumerate(zip(views, session.drafts(lines_alone=True), strict=True)):
             session.progress("visibility", i / len(views))
-            drawings.append(session.drawing(draft, Request(view, options)))
+            asked = at_scale(options, draft.image.placement.scale) if options.same_scale else options
+            drawings.append(session.drawing(draft, Request(view, asked)))
         session.progress("linework", 1.0)
     for drawing in drawings:
         if options.strict:

@@ -28,7 +28,7 @@ from hlr.image.camera import Camera, resolve
 from hlr.image.clip import clipped
 from hlr.image.image import Image, image_of
 from hlr.image.outlines import outlined
-from hlr.image.placement import Placement, place
+from hlr.image.placement import Placement, of_one_scale, place
 from hlr.image.transparency import glass_of, hiding, opacity_of, without_glass
 from hlr.linework.curves import EdgeCurveLookup
 from hlr.linework.lines import draw_lines
@@ -97,7 +97,8 @@ class Session:
         self.cameras = [resolve(view, options, self.source.frame, self.bounds) for view in views]
         lap(self.clock, "source", started)
         self.progress("tessellate", 0.0)
-        self.placements = [placing(camera, options, self.source, self.bounds) for camera in self.cameras]
+        placements = [placing(camera, options, self.source, self.bounds) for camera in self.cameras]
+        self.placements = of_one_scale(placements, options)
 
     def scene_at(
         self, deflection: float, angle: float = ANGLE, planner: Planner | None = None, coarser: float = 1.0
@@ -138,8 +139,8 @@ class Session:
             self.scene, meshed = self.scene_at(finest, self.placements[0].tolerances.angle, planner, coarser)
             note_meshing(planner, self.scene)
             pairs = zip(self.cameras, self.placements, strict=True)
-            drafts = [self._fitted(camera, placement, planner.fork()) for camera, placement in pairs]
-            self.placements = [draft.image.placement for draft in drafts]
+            drafts = [self._draft(camera, placement, planner.fork()) for camera, placement in pairs]
+            self._fit(drafts)
             if min(at.tolerances.deflection for at in self.placements) > REMESH * finest:
                 break
         for draft in drafts:
@@ -149,20 +150,26 @@ class Session:
         self.remarks = [] if self.options.see_through else hiding(self.scene, self.looks)
         return drafts
 
-    def _fitted(self, camera: Camera, placement: Placement, planner: Planner) -> Draft:
-        """The draft at its final scale: outlines have to fit, which reach beyond the mesh by less than the accuracy."""
-        image = image_of(self.scene, camera, placement)
-        options = by_view(self.options, camera, planner)
-        if placement.settled:
-            return Draft(image, options, planner)
+    def _draft(self, camera: Camera, placement: Placement, planner: Planner) -> Draft:
+        return Draft(image_of(self.scene, camera, placement), by_view(self.options, camera, planner), planner)
+
+    def _fit(self, drafts: Sequence[Draft]) -> None:
+        """Give drafts their final scales. Outlines have to fit: they reach beyond the mesh, within the accuracy."""
         surfaces = self.scene.true_surfaces
         bends = surfaces is not None and bool(surfaces.curved.any() or (np.diff(self.scene.chains.offsets) > 1).any())
-        found = outlined(image, planner)
-        fitted = placement.fitted(camera, options, found.points, bends)
-        if fitted.tolerances.deflection == placement.tolerances.deflection:
-            return Draft(found.placed(fitted), options, planner)
-        # At another scale the outlines are traced anew: finer, or less fine.
-        return Draft(image.placed(fitted), options, planner)
+        traced, fitted = [], []
+        for draft in drafts:
+            image = draft.image
+            found = image if image.placement.settled else outlined(image, draft.planner)
+            traced.append(found)
+            fitted.append(image.placement.fitted(image.camera, draft.options, found.points, bends))
+        self.placements = of_one_scale(fitted, self.options)
+        for draft, found, placement in zip(drafts, traced, self.placements, strict=True):
+            before = draft.image.placement
+            if placement is not before:
+                # At another scale the outlines are traced anew: finer, or less fine.
+                same = placement.tolerances.deflection == before.tolerances.deflection
+                draft.image = (found if same else draft.image).placed(placement)
 
     def shown(self, draft: Draft) -> Image:
         """The image as it is drawn: with outlines, clipped, and without glass where the viewer sees through it."""

@@ -25,6 +25,7 @@ SMALLEST_FIT, LARGEST_FIT = 1e-3, 1e7
 SWITCHES = (
     "seam",
     "intersections",
+    "same_scale",
     "see_through",
     "details",
     "fill",

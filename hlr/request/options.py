@@ -54,6 +54,7 @@ class Options:
     page         the name of a sheet, such as "A3" or "letter-portrait", or (width, height) in millimetres. A sheet lies
                  the way that allows the larger scale. None: A4; with a scale or a size to fit into, the page is as
                  large as the drawing
+    same_scale   all views have one scale: the smallest of those they would have otherwise
     window       (x0, y0, x1, y1): only this rectangle of the drawing, in the coordinates that it has without a window:
                  its lower left corner is 0, 0; lines are cut at the sides, and what lies outside still hides
     accuracy     None: 0.05, or a two-thousandth of the drawing's diagonal where that is less
@@ -93,6 +94,7 @@ class Options:
     scale: float | str | None = None
     fit: tuple[float, float] | str | None = None
     page: tuple[float, float] | str | None = None
+    same_scale: bool = False
     window: tuple[float, float, float, float] | None = None
     accuracy: float | None = None
     crease: float = 30.0
@@ -125,6 +127,7 @@ class Wishes(TypedDict, total=False):
     scale: float | str | None
     fit: tuple[float, float] | str | None
     page: tuple[float, float] | str | None
+    same_scale: bool
     window: tuple[float, float, float, float] | None
     accuracy: float | None
     crease: float

@@ -60,13 +60,15 @@ def test_every_option_arrives(hlr_command):
 
     asked = options(
         hlr_command, "--no-hidden", "--smooth", "--seam", "--fit", "200x150.5", "--accuracy", "0.01", "--crease", "20",
-        "--up", "0,-1,0", "--eye", "-1,2,3", "--target", "0,0,-1", "--fov", "40", "--threads", "2", "--strict",
+        "--same-scale", "--up", "0,-1,0", "--eye", "-1,2,3", "--target", "0,0,-1", "--fov", "40", "--threads", "2",
+        "--strict",
     )  # fmt: skip
     assert asked == Options(
         hidden=False,
         smooth=True,
         seam=True,
         fit=(200.0, 150.5),
+        same_scale=True,
         accuracy=0.01,
         crease=20.0,
         up=(0.0, -1.0, 0.0),
