@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from hlr.lab import methods as surfaces
     from hlr.lab import study
     from hlr.lab.methods.comparison import compare_methods as methods
+    from hlr.public.arranged import draw_arranged
     from hlr.public.draw import draw, draw_views
     from hlr.public.info import info
     from hlr.public.pages import draw_pages
@@ -71,6 +72,7 @@ _HOME = {
     "Wishes": "hlr.request.options",
     "WriteError": "hlr.errors",
     "draw": "hlr.public.draw",
+    "draw_arranged": "hlr.public.arranged",
     "draw_pages": "hlr.public.pages",
     "draw_views": "hlr.public.draw",
     "info": "hlr.public.info",
@@ -128,6 +130,7 @@ __all__ = [
     "compare",
     "compat",
     "draw",
+    "draw_arranged",
     "draw_pages",
     "draw_views",
     "info",

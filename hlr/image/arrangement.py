@@ -1,0 +1,132 @@
+"""Where several views lie on one page: in the cells of a grid, as large as the largest standard scale allows.
+
+::
+
+            column 0   1
+        row 1   top    iso          third-angle: each view on the side that it is seen from
+            0   front  right
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from hlr.errors import OptionError
+from hlr.tables.projection_methods import Cell, ProjectionMethod
+from hlr.tables.sheets import Paper, standard_scale
+
+LEAST_GAP, MOST_GAP = 10.0, 40.0
+"""Millimetres between views: at least, and at most where the page has more room than they need."""
+
+SLACK = 0.1
+"""Millimetres by which the views may together be larger than the room: they are drawn within an accuracy."""
+
+Size = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Arrangement:
+    """A scale (paper : model), the page, and the cell of each view."""
+
+    scale: float
+    paper: Paper
+    cells: tuple[Cell, ...]
+
+    def places(self, sizes: Sequence[Size]) -> list[tuple[float, float]]:
+        """The middle of each view's cell, millimetres from the page's lower left corner; sizes: at 1:1."""
+        columns, rows = _spans(sizes, self.cells)
+        x = _middles(columns, self.scale, self.paper.width, self.paper.room[0])
+        y = _middles(rows, self.scale, self.paper.height, self.paper.room[1])
+        return [(x[column], y[row]) for column, row in self.cells]
+
+    def needs(self, sizes: Sequence[Size]) -> Size:
+        """Width and height of all views at their scale, with the least gaps between them, millimetres."""
+        width, height = (
+            self.scale * sum(span.values()) + LEAST_GAP * (len(span) - 1) for span in _spans(sizes, self.cells)
+        )
+        return width, height
+
+
+def arranged(
+    names: Sequence[str], sizes: Sequence[Size], method: ProjectionMethod, papers: Sequence[Paper], scale: float | None
+) -> Arrangement:
+    """The arrangement of views that allows the largest scale; where several do, the first way that the paper may lie.
+
+    names: of the views; sizes: width and height of each at 1:1, millimetres; scale: None: the largest standard one.
+
+    Raises OptionError for a view that is given twice, for too many views, and for a page without room for them.
+    """
+    best: tuple[float, Arrangement] | None = None
+    for paper in papers:
+        cells = _cells(names, sizes, method, paper)
+        most = _most(sizes, cells, paper)
+        chosen = scale if scale is not None else standard_scale(most) if most > 0.0 else 0.0
+        # With a scale that is given, the way that has more room to spare.
+        rank = most if scale is not None else chosen
+        if chosen > 0.0 and (best is None or rank > best[0]):
+            best = rank, Arrangement(chosen, paper, cells)
+    if best is None:
+        raise OptionError(
+            f"a page of {papers[0].width:g} x {papers[0].height:g} mm has no room for {len(names)} views with "
+            f"{LEAST_GAP:g} mm between them: give a larger page, or fewer views"
+        )
+    return best[1]
+
+
+def _cells(names: Sequence[str], sizes: Sequence[Size], method: ProjectionMethod, paper: Paper) -> tuple[Cell, ...]:
+    """The cell of each view: its own, or the free one that leaves the largest scale."""
+    found: dict[int, Cell] = {}
+    for i, name in enumerate(names):
+        if name in method.cells:
+            if method.cells[name] in found.values():
+                raise OptionError(f"the view {name} is given twice: a page shows it once")
+            found[i] = method.cells[name]
+    for i in range(len(names)):
+        if i in found:
+            continue
+        free = [cell for cell in method.free if cell not in found.values()]
+        if not free:
+            raise OptionError(f"{len(names)} views are too many for one page: give fewer, or none")
+        given = list(found)
+
+        def scale(cell: Cell, i: int = i, given: Sequence[int] = given) -> float:
+            most = _most([sizes[k] for k in (*given, i)], [*(found[k] for k in given), cell], paper)
+            return standard_scale(most) if most > 0.0 else 0.0
+
+        found[i] = max(free, key=scale)
+    return tuple(found[i] for i in range(len(names)))
+
+
+def _most(sizes: Sequence[Size], cells: Sequence[Cell], paper: Paper) -> float:
+    """The largest scale at which the views fit; 0 where the gaps alone are too wide."""
+    scales = []
+    for span, room in zip(_spans(sizes, cells), paper.room, strict=True):
+        left, total = room + SLACK - LEAST_GAP * (len(span) - 1), sum(span.values())
+        if left <= SLACK:
+            return 0.0
+        if total > 0.0:
+            scales.append(left / total)
+    return min(scales, default=1.0)
+
+
+def _spans(sizes: Sequence[Size], cells: Sequence[Cell]) -> tuple[dict[int, float], dict[int, float]]:
+    """The width of each column and the height of each row at 1:1, from left to right and from below."""
+    columns: dict[int, float] = {}
+    rows: dict[int, float] = {}
+    for (width, height), (column, row) in zip(sizes, cells, strict=True):
+        columns[column] = max(columns.get(column, 0.0), width)
+        rows[row] = max(rows.get(row, 0.0), height)
+    return dict(sorted(columns.items())), dict(sorted(rows.items()))
+
+
+def _middles(span: dict[int, float], scale: float, side: float, room: float) -> dict[int, float]:
+    """Where the middle of each column or row lies, with even gaps, all of them in the middle of the page."""
+    total = scale * sum(span.values())
+    gap = min(max((room - total) / (len(span) + 1), LEAST_GAP), MOST_GAP)
+    at = 0.5 * (side - total - gap * (len(span) - 1))
+    found = {}
+    for number, size in span.items():
+        found[number] = at + 0.5 * scale * size
+        at += scale * size + gap
+    return found
