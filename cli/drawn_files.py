@@ -58,6 +58,13 @@ def write(drawings: Sequence[Drawing], targets: Targets, put: Callable[[bytes], 
     return done
 
 
+def formats_of(outputs: Sequence[str], format: str | None) -> list[str]:
+    """The formats that are written, each once. outputs, format: as of `targets_of`, which has accepted them."""
+    named = (Path(output) for output in outputs if output != STDOUT and not is_folder(output))
+    formats = [_format(path, format) for path in named]
+    return list(dict.fromkeys(formats if len(formats) == len(outputs) > 0 else (*formats, format or "svg")))
+
+
 def to_stdout(targets: Targets) -> bool:
     """Whether a drawing goes to standard output."""
     return any(target.path is None for row in targets for target in row)

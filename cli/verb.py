@@ -1,6 +1,8 @@
-"""A subcommand that refuses an option given twice, of which click would silently use the last."""
+"""A subcommand that ignores nothing in silence: neither an option given twice, nor one that has no effect."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import click
 
@@ -19,3 +21,12 @@ class Verb(click.Command):
                 raise click.UsageError(f"{max(option.opts, key=len)} is given twice; give it once", ctx)
             once.add(option)
         return super().parse_args(ctx, args)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Carry out the command, and then say which options had no effect. Raises OptionError for those of no use."""
+        from .without_effect import refuse, tell
+
+        refuse(ctx)
+        result = super().invoke(ctx)
+        tell(ctx)
+        return result

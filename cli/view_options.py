@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hlr.errors import OptionError
+from hlr.request.concerns import OF_SOURCES
 from hlr.request.directions import EYE
-from hlr.tables.readers import file_titles
 
 from .parameters import Scale, ScriptParameter, Size, Vector, Vector3, ViewName, Window
 
@@ -17,10 +17,6 @@ if TYPE_CHECKING:
     from hlr.request.options import Perspective, View
 
 Command = Callable[..., Any]
-
-_ANNOTATED = file_titles(lambda reader: "annotations" in reader.takes)
-_HIDING = file_titles(lambda reader: "hidden_objects" in reader.takes)
-_CACHED = file_titles(lambda reader: reader.cached)
 
 VIEW = click.option(
     "--view",
@@ -65,13 +61,13 @@ WINDOW = click.option(
 ANNOTATIONS = click.option(
     "--annotations",
     is_flag=True,
-    help=f"{_ANNOTATED}: also draw faces of annotation that the file hides or calls supplemental.",
+    help=f"{OF_SOURCES['annotations'].whose}: also draw faces of annotation that the file hides or calls supplemental.",
 )
 
 HIDDEN_OBJECTS = click.option(
     "--hidden-objects",
     is_flag=True,
-    help=f"{_HIDING}: also draw the objects that the document hides.",
+    help=f"{OF_SOURCES['hidden_objects'].whose}: also draw the objects that the document hides.",
 )
 
 
@@ -87,7 +83,7 @@ NO_CACHE = click.option(
     is_flag=True,
     expose_value=False,
     callback=_uncached,
-    help=f"{_CACHED}: read the file again, and do not keep it in the cache.",
+    help=f"{OF_SOURCES['no_cache'].whose}: read the file again, and do not keep it in the cache.",
 )
 
 

@@ -119,8 +119,6 @@ def compare(  # noqa: PLR0913 - one for each option of the command
         raise OptionError(f"--against {against} compares one model: leave out {'B' if after else '--page'}")
     if against is None and after is None:
         raise OptionError("a comparison needs two drawings: name B, or say --against freecad")
-    if against is None and coarse:
-        raise OptionError("--coarse is for --against: leave it out")
     if against is not None and register != "auto":
         raise OptionError("--register is for two drawings: leave it out, FreeCAD draws elsewhere on paper")
     sides = [before] if after is None else [before, after]

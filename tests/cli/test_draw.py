@@ -61,7 +61,7 @@ def test_every_option_arrives(hlr_command):
     asked = options(
         hlr_command, "--no-hidden", "--smooth", "--seam", "--fit", "200x150.5", "--accuracy", "0.01", "--crease", "20",
         "--same-scale", "--up", "0,-1,0", "--eye", "-1,2,3", "--target", "0,0,-1", "--fov", "40", "--threads", "2",
-        "--strict",
+        "--strict", "-q",
     )  # fmt: skip
     assert asked == Options(
         hidden=False,
@@ -86,7 +86,7 @@ def test_single_options_override_the_style(hlr_command):
     assert options(hlr_command, "--style", "dark").style == STYLES["dark"]
     style = options(
         hlr_command, "--style", "dark", "--line-width", "0.3", "--color", "Gold", "--hidden-color", "#123",
-        "--background", "none", "--layers", "part", "--part-colors", "lines", "--size", "800x600",
+        "--background", "none", "--layers", "part", "--part-colors", "lines", "--size", "800x600", "-q",
     ).style  # fmt: skip
     pens = [usual_pens(style).pen("sharp", visible) for visible in (True, False)]
     assert [(pen.width, pen.color) for pen in pens] == [(0.3, "#ffd700"), (0.15, "#112233")]
