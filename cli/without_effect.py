@@ -95,8 +95,7 @@ def _for_sources(of: OfSources, asked: Asked) -> str:
     reader = of_ending(source.suffix)
     if reader is None or of.fits(reader):
         return ""
-    but = " but on shapes that are made of triangles alone" if of.somewhat else ""
-    return f"has no effect{but}: it is for {of.whose}, and {source.name} is {reader.noun or 'a mesh'}"
+    return f"has no effect{of.but}: it is for {of.whose}, and {source.name} is {reader.noun or 'a mesh'}"
 
 
 def _for_formats(formats: tuple[str, ...], asked: Asked) -> str:

@@ -128,14 +128,17 @@ def batch(
 
 
 def _tell(plan: Plan, asked: _Asked) -> None:
-    """Say what is not drawn, though one might expect it."""
+    """Say what is not drawn, or has no effect, though one might expect it."""
     from hlr.batch.manifest import find
     from hlr.batch.plan import shows_nothing
+    from hlr.batch.without_effect import without_effect
 
     if plan.manifest.file is None and asked.names_sources and (unused := find(Path())) is not None:
         remark(f"{unused} is not used, for sources are named: name it, or the folder, to draw what it says")
     if plan.silent:
         remark(shows_nothing(plan.silent))
+    for sentence in without_effect(plan):
+        remark(sentence)
 
 
 class _Asked:

@@ -22,6 +22,11 @@ class OfSources:
     fits: Callable[[Reader], bool]
     somewhat: bool = False
 
+    @property
+    def but(self) -> str:
+        """After "has no effect", where it is for others: on what it has."""
+        return " but on shapes that are made of triangles alone" if self.somewhat else ""
+
 
 def _of_readers(fits: Callable[[Reader], bool]) -> OfSources:
     return OfSources(file_titles(fits), fits)

@@ -134,6 +134,24 @@ def test_a_manifest_that_is_not_used_is_told(hlr_batch):
     assert hlr_batch("a.off", "--list", "-q").stderr == hlr_batch("--list").stderr == ""
 
 
+def test_an_option_that_no_source_has_a_use_of_is_told(hlr_batch):
+    tetrahedron(hlr_batch.folder / "a.off")
+    (hlr_batch.folder / "b.step").touch()
+    manifest = hlr_batch.folder / "hlr.toml"
+    # One source that it is for is enough.
+    manifest.write_text("circles = true\nannotations = true\nseam = true\n")
+    assert hlr_batch("--list").stderr == ""
+    manifest.write_text("circles = true\nannotations = true\nfiles = 'b.step'\n")
+    assert hlr_batch("--list").stderr == (
+        "hlr: note: circles in hlr.toml has no effect but on shapes that are made of triangles alone: it is for meshes, "
+        "and none of its sources is such.\n"
+    )
+    manifest.write_text("[[source]]\nfiles = 'a.off'\nseam = true\n[[source]]\nfiles = 'b.step'\n")
+    told = hlr_batch("--list").stderr
+    assert told == "hlr: note: seam in hlr.toml has no effect: it is for CAD models, and none of its sources is such.\n"
+    assert hlr_batch("--list", "-q").stderr == ""
+
+
 def test_ways_not_to_draw_contradict_one_another(hlr_batch):
     tetrahedron(hlr_batch.folder / "a.off")
     refused = hlr_batch("--list", "--watch")
