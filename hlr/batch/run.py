@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
@@ -18,6 +19,7 @@ from hlr.batch.plan import Plan
 from hlr.batch.request import check, wrong_one
 from hlr.drawing import files
 from hlr.errors import HlrError, WriteError
+from hlr.tables.readers import of_ending
 
 if TYPE_CHECKING:
     from hlr.batch.pool import Pool
@@ -144,4 +146,20 @@ def _check_options(manifest: Manifest, jobs: Sequence[Job]) -> None:
             check(options, job.views, job.root)
         except HlrError as error:
             name = wrong_one(options, job.root) or "views"
-            raise manifest.error((*job.rule, name), str(error)) from None
+            documents = [each.source for each in jobs if each.rule == job.rule and _has_pages(each.source)]
+            is_page = name == "page" and isinstance(options[name], str) and documents
+            text = _no_pages(options["page"], documents[0]) if is_page else str(error)
+            raise manifest.error((*job.rule, name), text) from None
+
+
+def _has_pages(source: str) -> bool:
+    reader = of_ending(Path(source).suffix)
+    return reader is not None and reader.kind == "fcstd"
+
+
+def _no_pages(page: str, document: str) -> str:
+    """What is said where a page is asked for that is no sheet, and may be one of a document."""
+    return (
+        f"a sheet such as A3 is needed, not {page!r}: batches draw no TechDraw pages; "
+        f"hlr draw {shlex.quote(document)} --page {shlex.quote(page)} draws one"
+    )

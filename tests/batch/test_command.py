@@ -143,13 +143,29 @@ def test_an_option_that_no_source_has_a_use_of_is_told(hlr_batch):
     assert hlr_batch("--list").stderr == ""
     manifest.write_text("circles = true\nannotations = true\nfiles = 'b.step'\n")
     assert hlr_batch("--list").stderr == (
-        "hlr: note: circles in hlr.toml has no effect but on shapes that are made of triangles alone: it is for meshes, "
-        "and none of its sources is such.\n"
+        "hlr: note: circles in hlr.toml has no effect but on shapes that are made of triangles alone: "
+        "it is for meshes, and none of its sources is such.\n"
     )
     manifest.write_text("[[source]]\nfiles = 'a.off'\nseam = true\n[[source]]\nfiles = 'b.step'\n")
     told = hlr_batch("--list").stderr
     assert told == "hlr: note: seam in hlr.toml has no effect: it is for CAD models, and none of its sources is such.\n"
     assert hlr_batch("--list", "-q").stderr == ""
+
+
+def test_a_page_of_a_document_is_refused_with_the_command_that_draws_it(hlr_batch):
+    tetrahedron(hlr_batch.folder / "a.off")
+    (hlr_batch.folder / "b c.FCStd").touch()
+    manifest = hlr_batch.folder / "hlr.toml"
+    manifest.write_text('views = "iso"\npage = "Page"\n')
+    refused = hlr_batch()
+    assert (refused.returncode, refused.stderr) == (
+        2,
+        "hlr: hlr.toml, line 2, page: a sheet such as A3 is needed, not 'Page': batches draw no TechDraw pages; "
+        "hlr draw 'b c.FCStd' --page Page draws one.\n",
+    )
+    # Of sources that have no pages the usual sentence lists the sheets.
+    manifest.write_text('files = "a.off"\npage = "A44"\n')
+    assert "no page is called 'A44': use A0, A1" in hlr_batch().stderr
 
 
 def test_ways_not_to_draw_contradict_one_another(hlr_batch):
