@@ -175,9 +175,14 @@ class _Asked:
         from hlr.batch.manifest import find, read, without_file
 
         named = [Path(source) for source in self._sources] or [Path()]
+        manifest = next((path for path in named if path.suffix == ".toml"), None)
+        if manifest is not None and len(named) > 1:
+            raise OptionError(
+                f"{manifest} is a manifest, which names its sources itself: give it alone, or leave it out"
+            )
         if len(named) == 1:
             one = named[0]
-            file = one if one.suffix == ".toml" else find(one)
+            file = manifest or find(one)
             if file is not None:
                 return read(file, **self._given)
             if one.is_dir():

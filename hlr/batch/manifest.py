@@ -21,6 +21,9 @@ from hlr.errors import OptionError
 from hlr.tables.writers import WRITERS, formats
 
 FILE, PROJECT = "hlr.toml", "pyproject.toml"
+_IN_PROJECT = ("tool", "hlr")
+"""Keys of the table of a project that is the manifest."""
+
 _TABLE = "source"
 _LARGEST = 1_000_000
 """Bytes: a larger file is no manifest."""
@@ -77,9 +80,10 @@ def find(folder: Path) -> Path | None:
     project = folder / PROJECT
     if os.path.isfile(project):
         try:
-            if "hlr" in parsed(project.read_text("utf-8")).get("tool", {}):
+            tools = parsed(project.read_text("utf-8")).get("tool")
+            if isinstance(tools, dict) and "hlr" in tools:
                 return project
-        except (OSError, ValueError, AttributeError):  # another program's file, which that one complains about
+        except (OSError, ValueError, RecursionError):  # another program's file, which that one complains about
             return None
     return None
 
@@ -98,9 +102,11 @@ def read(file: Path, **given: Any) -> Manifest:
         raise OptionError(f"{file} cannot be read: {(error.strerror or str(error)).lower()}") from None
     except (ValueError, RecursionError) as error:  # TOMLDecodeError says the line, UnicodeDecodeError the byte
         raise OptionError(f"{file} is no TOML: {error}") from None
-    prefix = ("tool", "hlr") if file.name == PROJECT else ()
+    prefix = _IN_PROJECT if file.name == PROJECT else ()
     for name in prefix:
-        found = found.get(name, {})
+        if not isinstance(found, dict) or name not in found:
+            raise OptionError(f"{file} has no table [tool.hlr]: write one, or name a folder or models")
+        found = found[name]
     return manifest_of(found, file.resolve().parent, file, text, prefix, given)
 
 
@@ -143,6 +149,8 @@ def _check(table: Mapping[str, Any], where: Where, wrong: Any) -> None:
         if name not in (*known, *NAMES):
             if name in KEYS:
                 raise wrong((*where, name), "it belongs to the top, before the first table")
+            if name == _IN_PROJECT[0]:
+                raise wrong((*where, name), f"tables [tool] belong to {PROJECT}: write keys without [tool.hlr] here")
             near = get_close_matches(name, (*known, *NAMES, _TABLE), 1)
             advice = f"did you mean {near[0]}?" if near else f"use {', '.join(known)}, or an option of hlr.Options"
             raise wrong((*where, name), f"there is no such key: {advice}")
@@ -164,5 +172,6 @@ def _rule(table: Mapping[str, Any], where: Where, own: Mapping[str, Any]) -> Rul
 def _error(file: Path, text: str, where: Where, message: str) -> OptionError:
     line = line_of(text, where)
     place = f"{file.name}, line {line}" if line else file.name
-    key = ".".join(name for name in where if isinstance(name, str) and name not in ("tool", "hlr"))
+    own = where[len(_IN_PROJECT) :] if file.name == PROJECT else where
+    key = ".".join(name for name in own if isinstance(name, str))
     return OptionError(f"{place}{', ' + key if key else ''}: {message}")

@@ -168,6 +168,18 @@ def test_a_page_of_a_document_is_refused_with_the_command_that_draws_it(hlr_batc
     assert "no page is called 'A44': use A0, A1" in hlr_batch().stderr
 
 
+@pytest.mark.parametrize("named", [("my.toml", "a.off"), ("a.off", "my.toml"), ("my.toml", "my.toml")])
+def test_a_manifest_and_sources_are_not_named_together(hlr_batch, named):
+    tetrahedron(hlr_batch.folder / "a.off")
+    (hlr_batch.folder / "my.toml").write_text('views = "iso"\n')
+    refused = hlr_batch(*named)
+    assert (refused.returncode, refused.stderr) == (
+        2,
+        "hlr: my.toml is a manifest, which names its sources itself: give it alone, or leave it out.\n",
+    )
+    assert hlr_batch("my.toml", "--list").stdout.endswith("a-iso.svg\n")
+
+
 def test_ways_not_to_draw_contradict_one_another(hlr_batch):
     tetrahedron(hlr_batch.folder / "a.off")
     refused = hlr_batch("--list", "--watch")

@@ -47,6 +47,9 @@ def test_it_may_stand_in_pyproject(tmp_path):
         ("[[source]]\nfiles='a'\n[[source]]\nfiles='b'\noutput='c'", "line 5, source.output: it belongs to the top"),
         ("[source]\nfiles = 'a'", "line 1, source: write [[source]] with double brackets"),
         ("parameters = { size = [] }", "line 1, parameters: a table of names with a value, or a list of values"),
+        ("[tool.ruff]\na = 1", "hlr.toml, line 1, tool: tables [tool] belong to pyproject.toml: write keys without"),
+        ("[source.hlr]\na = 1", "hlr.toml, line 1, source: write [[source]]"),
+        ("hlr = 1", "hlr.toml, line 1, hlr: there is no such key"),
         ("a = [1,\n2", "hlr.toml is no TOML: "),
         ("views = 'iso", "hlr.toml is no TOML: Expected"),
     ],
@@ -54,6 +57,22 @@ def test_it_may_stand_in_pyproject(tmp_path):
 def test_what_is_wrong_is_named_with_its_line(tmp_path, text, message):
     with pytest.raises(OptionError, match=re.escape(message)):
         manifest(tmp_path, text)
+
+
+@pytest.mark.parametrize("text", ["", "tool = 3", "tool = 'hlr'", "[tool.ruff]\na = 1"])
+def test_a_project_without_the_table_is_no_manifest(tmp_path, text):
+    with pytest.raises(
+        OptionError, match=r"pyproject\.toml has no table \[tool\.hlr\]: write one, or name a folder or"
+    ):
+        manifest(tmp_path, text, "pyproject.toml")
+    assert find(tmp_path) is None
+
+
+def test_a_key_of_a_project_is_named_without_its_table(tmp_path):
+    with pytest.raises(OptionError, match=r"^pyproject\.toml, line 2, veiws: there is no such key"):
+        manifest(tmp_path, "[tool.hlr]\nveiws = 'iso'\n", "pyproject.toml")
+    with pytest.raises(OptionError, match=r"^pyproject\.toml, line 1: a table is needed"):
+        manifest(tmp_path, "tool = { hlr = 3 }\n", "pyproject.toml")
 
 
 def test_a_line_is_found_whatever_stands_before_it():
