@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Protocol
 from hlr.batch.job import Job, Outcome, failed
 from hlr.batch.kept import Kept
 from hlr.batch.manifest import Manifest
+from hlr.batch.parameters import check_parameters
 from hlr.batch.plan import Plan
 from hlr.batch.request import check, wrong_one
 from hlr.drawing import files
@@ -60,6 +61,7 @@ def run(plan: Plan, kept: Kept, pool: Callable[[], Pool], listener: Listener) ->
             outcomes[number] = without_contents(written(plan, job, outcome))
     todo = [number for number in _largest_first(plan.jobs) if number not in outcomes]
     _check_options(plan.manifest, [plan.jobs[number] for number in todo])
+    check_parameters(plan, {plan.jobs[number].rule for number in todo if plan.jobs[number].parameters})
     listener.planned(plan, todo)
     if todo:
         for event in pool().run([plan.jobs[number] for number in todo]):

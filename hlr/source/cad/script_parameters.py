@@ -36,8 +36,16 @@ def compiled(path: Path, parameters: Mapping[str, Parameter]) -> CodeType:
         if name in parameters:
             statement.value = ast.copy_location(ast.Constant(parameters[name]), statement)
     for name, given in parameters.items():
-        _check(path, name, given, found)
+        check_parameter(path, name, given, found)
     return compile(ast.fix_missing_locations(tree), str(path), "exec")
+
+
+def parameters_of(path: Path) -> dict[str, Parameter]:
+    """The parameters of a script, and the value of each. It is read, and not run. Raises SyntaxError."""
+    found: dict[str, Parameter] = {}
+    for name, _, value in _settings(ast.parse(path.read_bytes(), str(path))):
+        found.setdefault(name, value)
+    return found
 
 
 def _settings(tree: ast.Module) -> Iterator[tuple[str, ast.Assign | ast.AnnAssign, Parameter]]:
@@ -58,7 +66,8 @@ def _settings(tree: ast.Module) -> Iterator[tuple[str, ast.Assign | ast.AnnAssig
             yield name, statement, value
 
 
-def _check(path: Path, name: str, given: Parameter, found: Mapping[str, Parameter]) -> None:
+def check_parameter(path: Path, name: str, given: Parameter, found: Mapping[str, Parameter]) -> None:
+    """Raise OptionError where a script has no such parameter, or one of another kind. found: as of `parameters_of`."""
     if name not in found:
         near = get_close_matches(name, found, 1)
         known = f"its parameters are {', '.join(found)}" if found else "it sets no variable to a plain value"
