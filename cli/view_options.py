@@ -9,7 +9,7 @@ import click
 
 from hlr.errors import OptionError
 from hlr.request.concerns import OF_SOURCES
-from hlr.request.directions import EYE
+from hlr.request.directions import EYE, NAMED
 
 from .parameters import Scale, ScriptParameter, Size, Vector, Vector3, ViewName, Window
 
@@ -24,8 +24,7 @@ VIEW = click.option(
     type=ViewName(),
     metavar="NAME|X,Y,Z",
     multiple=True,
-    help="front, back, left, right, top, bottom, iso, iso-sw, iso-ne, iso-nw, or a direction toward the viewer. "
-    "May be repeated. Default: iso.",
+    help=f"{', '.join(NAMED)}, or a direction toward the viewer. May be repeated. Default: iso.",
 )
 
 SIZE = (

@@ -57,6 +57,14 @@ def test_help_and_version(hlr_command, arguments):
     assert result.err == ""
 
 
+@pytest.mark.parametrize("verb", ["draw", "plan", "preview"])
+def test_help_lists_all_named_views(hlr_command, verb):
+    from hlr.request.directions import NAMED
+
+    shown = " ".join(hlr_command(verb, "--help").out.split())
+    assert f"{', '.join(NAMED)}, or a direction toward the viewer." in shown
+
+
 def test_every_verb_is_listed_and_there(hlr_command):
     shown = hlr_command("--help").out
     for verb in sorted(path.stem for path in (ROOT / "cli" / "commands").glob("[a-z]*.py")):
