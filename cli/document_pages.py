@@ -82,6 +82,6 @@ def _without_template(drawings: Sequence[Drawing], targets: Targets) -> list[Not
 
 
 def _distinct(pages: list[tuple[str, str]]) -> list[str]:
-    """The labels of pages, for the names of files; where two have the same, their names."""
-    labels = [label for _, label in pages]
-    return [name if labels.count(label) > 1 else label for name, label in pages]
+    """The labels of pages, for the names of files; where two are the same but for large letters, their names."""
+    labels = [label.casefold() for _, label in pages]
+    return [name if labels.count(label.casefold()) > 1 else label for name, label in pages]

@@ -67,7 +67,8 @@ def plan(pattern: str | None, source: str, views: Sequence[str], ending: str) ->
 def check(targets: Sequence[Target], source: str | None) -> None:
     """Refuse outputs that cannot be written, before any work is done.
 
-    Raises OptionError where two outputs are the same file, however it is spelled; WriteError for a missing folder, a
+    Raises OptionError where two outputs are the same file, however it is spelled, be it only on file systems that take
+    large and small letters for the same; WriteError for a missing folder, a
     lack of permission, the source itself or another model.
     """
     from hlr.drawing import files, originals
@@ -75,8 +76,14 @@ def check(targets: Sequence[Target], source: str | None) -> None:
     paths = [(target.path, target.folder is not None) for target in targets if target.path is not None]
     found: dict[str, Path] = {}
     for path, _ in paths:
-        same = found.setdefault(os.path.realpath(path), path)
+        real = os.path.realpath(path)
+        same = found.setdefault(real.casefold(), path)
         if same is not path:
+            if os.path.realpath(same) != real:
+                raise OptionError(
+                    f"{same} and {path} are one file where large and small letters are the same, as on Windows and "
+                    "macOS; give each a name of its own"
+                )
             also = "" if same == path else f", which is {same}"
             raise OptionError(f"two things would be written to {path}{also}; give each a name of its own")
     if source is not None:

@@ -56,14 +56,19 @@ def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
         if "parameters" in rule.own and not any(map(takes_parameters, sources)):
             raise manifest.error((*rule.where, "parameters"), "only scripts have parameters, and this names none")
         depends = _depends(manifest, rule)
-        stems = Counter(str(path.with_suffix("")) for path in set(sources))
+        stems = Counter(_stem(path) for path in set(sources))
         for path in sources:
             options = {**rule.options, **({"strict": True} if strict else {})}
-            alone = stems[str(path.with_suffix(""))] == 1
+            alone = stems[_stem(path)] == 1
             jobs.extend(replace(job, depends=depends) for job in _jobs(manifest, rule, path, options, alone))
     _check_names(manifest, jobs)
     drawn = {os.path.join(job.root, job.source) for job in jobs}
     return Plan(manifest, output, tuple(jobs), tuple(path for path in dict.fromkeys(silent) if str(path) not in drawn))
+
+
+def _stem(path: Path) -> str:
+    """A source without its ending, as a file system sees it that takes large and small letters for the same."""
+    return str(path.with_suffix("")).casefold()
 
 
 def _sources(manifest: Manifest, rule: Rule, output: Path, silent: list[Path]) -> list[Path]:
@@ -180,15 +185,16 @@ def _safe(text: str) -> str:
 
 def _check_names(manifest: Manifest, jobs: Sequence[Job]) -> None:
     """Raise OptionError where two drawings have one file, or one that the report needs."""
-    first: dict[str, str] = {name: "the report" for name in REPORTS}
+    first = {name: ("the report", name) for name in REPORTS}
     for job in jobs:
         for row, view in zip(job.files, job.views, strict=True):
             for file in row:
                 what = f"{job.title}, {view}"
                 # As a file system sees it that takes large and small letters for the same.
-                other = first.setdefault(file.casefold(), what)
+                other, same = first.setdefault(file.casefold(), (what, file))
                 if other is not what:
-                    raise _clash(manifest, job, f"{other} and {what} would both be written to {file}")
+                    where = "" if same == file else ", where large and small letters are the same"
+                    raise _clash(manifest, job, f"{other} and {what} would both be written to {file}{where}")
 
 
 def _clash(manifest: Manifest, job: Job, message: str) -> OptionError:

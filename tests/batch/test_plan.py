@@ -123,6 +123,18 @@ def test_models_that_differ_in_their_ending_only_have_files_of_their_own(tmp_pat
     tetrahedron(tmp_path / "a.off")
     (tmp_path / "a.stl").touch()
     assert planned(tmp_path, views="top") == {"a.off": ["a.off-top.svg"], "a.stl": ["a.stl-top.svg"]}
+    (tmp_path / "a.stl").rename(tmp_path / "A.stl")
+    assert planned(tmp_path, views="top") == {"A.stl": ["A.stl-top.svg"], "a.off": ["a.off-top.svg"]}
+
+
+def test_models_that_differ_in_large_letters_only_are_refused(tmp_path):
+    for name in ("A.off", "a.off"):
+        tetrahedron(tmp_path / name)
+    if len(list(tmp_path.iterdir())) == 1:
+        pytest.skip("this file system takes large and small letters for the same")
+    message = "A.off, top and a.off, top would both be written to a.off-top.svg, where large and small letters are the"
+    with pytest.raises(OptionError, match=re.escape(message)):
+        planned(tmp_path, views="top")
 
 
 @pytest.mark.parametrize(

@@ -62,6 +62,10 @@ def test_a_preview_into_a_folder(hlr_real, tmp_path):
     ("arguments", "words"),
     [
         (["-o", "a.svg", "-o", "a.svg"], "two things would be written to a.svg;"),
+        (
+            ["-o", "a.svg", "-o", "A.svg"],
+            "a.svg and A.svg are one file where large and small letters are the same, as on",
+        ),
         (["-o", "a.svg", "-o", "./a.svg"], "two things would be written to"),
         (["-o", "a.svg", "-o", "LINK.svg"], "which is a.svg"),
         (["-o", "-", "-o", "-"], "given twice"),
