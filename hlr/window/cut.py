@@ -20,6 +20,9 @@ from hlr.window.lines import cut_lines
 EFFECT = "window"
 """The row of the table of effects."""
 
+PLACES = 3
+"""Digits after the point of millimetres in a note."""
+
 
 def decide_cut(points: npt.NDArray[np.float64], window: Bounds, planner: Planner) -> None:
     """Decide whether the window will cut anything, before there are lines.
@@ -72,4 +75,4 @@ def _beyond(box: Bounds, window: Bounds) -> int:
 
 
 def _shown(box: Bounds) -> str:
-    return ",".join(f"{value + 0.0:.6g}" for value in box)
+    return ",".join(f"{round(value, PLACES) + 0.0:.6g}" for value in box)

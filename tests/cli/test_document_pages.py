@@ -23,7 +23,6 @@ def test_a_page_by_its_name(hlr_real, tmp_path):
     assert b"LINE" in (tmp_path / "page.dxf").read_bytes()
 
 
-@pytest.mark.slow
 def test_pages_of_the_same_label_have_files_by_their_names():
     from hlr.cli.document_pages import _distinct
 
@@ -31,6 +30,7 @@ def test_pages_of_the_same_label_have_files_by_their_names():
     assert _distinct(pages) == ["Page", "Page001", "Cover"]
 
 
+@pytest.mark.slow
 def test_all_pages(hlr_real, tmp_path):
     assert hlr_real("draw", HOUSING, "--all-pages", "-o", "{stem}-{view}.dxf").code == 0
     assert [path.name for path in tmp_path.iterdir()] == ["housing_body-Page.dxf"]

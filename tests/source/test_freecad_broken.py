@@ -71,6 +71,15 @@ def test_what_cannot_be_drawn_is_named(tmp_path, objects, files, note):
     assert all(each.is_warning for each in source.notes)
 
 
+def test_a_document_of_meshes_alone_says_so_without_repeating_itself(tmp_path):
+    with pytest.raises(SourceError) as told:
+        opened(tmp_path, {"Bad": item("Mesh::Feature", Mesh=kept("Mesh", "m.bms"))}, {})
+    assert str(told.value) == (
+        'made.FCStd shows no shapes that can be drawn, for "Bad" is a mesh and was left out: '
+        "export it as STL, 3MF or OBJ to draw it."
+    )
+
+
 def xml_document(xml, **others):
     return {"Document.xml": xml.encode(), **{name: data for name, data in others.items()}}
 

@@ -15,6 +15,9 @@ from hlr.drawing.curve import Arc, Bezier
 from hlr.drawing.drawing import DrawnView
 from hlr.drawing.fill import Fill
 from hlr.drawing.line import Bounds, Line
+from hlr.request.drawing_effects import drawing_effects
+from hlr.request.effect import Planner
+from hlr.window.cut import cut_at_window
 from hlr.window.fill import cut_fill
 from hlr.window.frame import Frame
 from hlr.window.lines import cut_lines
@@ -290,6 +293,16 @@ def test_the_page_is_the_window_and_json_holds_it():
     again = hlr.load(io.BytesIO(drawn.to_json().encode()))
     assert again == drawn and again.window == Bounds(10, 5, 30, 45) and again.to_svg() == svg
     assert drawn != hlr.draw(housing(), window=(10, 5, 30, 46), **AT_SIZE)
+
+
+def test_the_note_on_an_empty_window_rounds_its_numbers():
+    lines = [line([(-2.2e-15, 1e-9), (20 / 3, 100 / 3)])]
+    planner = Planner(drawing_effects(), hlr.Options(window=(100, 100, 400 / 3, 130)))
+    _, _, (note,) = cut_at_window(lines, None, frame(100, 100, 400 / 3, 130), planner)
+    assert note.text == (
+        "nothing of the drawing lies in the window 100,100,133.333,130: without it the drawing is 0,0,6.667,33.333 "
+        "(x0,y0,x1,y1 in millimetres)"
+    )
 
 
 def test_a_window_that_shows_nothing_is_drawn_empty_with_a_note():

@@ -80,7 +80,7 @@ def leaves_of(
     if tree.left_hidden:
         notes.append(_hidden_note(tree.left_hidden))
     if not tree.leaves and not tree.sketches:
-        raise SourceError(f"{name} {_why_empty(tree)}: there is nothing to draw.")
+        raise SourceError(f"{name} {_why_empty(tree)}.")
     if sketches:
         return tree.leaves + tree.sketches, notes
     if tree.leaves and tree.sketches:
@@ -96,7 +96,7 @@ def _hidden_note(count: int) -> Note:
 
 def _why_empty(tree: Tree) -> str:
     if tree.notes:
-        return f"shows no shapes that can be drawn ({tree.notes[0].text.rstrip('.')})"
+        return f"shows no shapes that can be drawn, for {tree.notes[0].text.rstrip('.')}"
     if tree.left_hidden:
-        return "hides all its objects (--hidden-objects draws them)"
-    return "holds no shapes"
+        return "hides all its objects (--hidden-objects draws them): there is nothing to draw"
+    return "holds no shapes: there is nothing to draw"
