@@ -120,7 +120,7 @@ def _for_background(asked: Asked) -> str:
 
 def _for_hidden_lines(asked: Asked) -> str:
     values = asked.values
-    if values["all_pages"] or values["hidden"]:
+    if values["all_pages"] or values["arrange"] or values["hidden"]:
         return ""
     if values["hidden"] is None:
         from hlr.request.directions import directed, pictorial
@@ -147,6 +147,15 @@ def _with(option: str, why: str) -> Callable[[Asked], str]:
     return lambda asked: why if asked.values[option] else ""
 
 
+def _for_several_scales(asked: Asked) -> str:
+    values = asked.values
+    if values["scale"] is not None:
+        return "has no effect: all views have the scale that is asked for"
+    if values.get("arrange"):
+        return "has no effect: views on one page have one scale"
+    return "has no effect: there is one view" if len(values["views"]) < _FEW else ""
+
+
 def _without_lines(asked: Asked) -> str:
     lines = asked.values["edges"] or asked.values["look"] != "shaded"
     return "" if lines else "has no effect: the picture has no lines, unless --edges asks for them"
@@ -157,7 +166,18 @@ def _with_look(why: str, asked: Asked) -> str:
     return "" if look == "shaded" else f"has no effect: a {look} look {why}"
 
 
-_DRAWS = ("output", "views", "formats", "jobs", "address", "baseline", "fail_on_change", "strict", "no_cache")
+_DRAWS = (
+    "output",
+    "views",
+    "arrange",
+    "formats",
+    "jobs",
+    "address",
+    "baseline",
+    "fail_on_change",
+    "strict",
+    "no_cache",
+)
 _RUNS = ("jobs", "address", "baseline", "fail_on_change")
 
 ROWS: tuple[Row, ...] = (
@@ -165,6 +185,7 @@ ROWS: tuple[Row, ...] = (
     *(Row((name,), partial(_for_formats, OF_FORMATS[name]), "draw") for name in ("dpi", "size", "layers")),
     Row(("background",), _for_background, "draw"),
     Row(("hidden_color",), _for_hidden_lines, "draw"),
+    Row(("same_scale",), _for_several_scales),
     Row(("strict",), lambda _: "has no effect: a plan writes nothing, and has no warnings", "plan"),
     Row(("smooth",), _without_lines, "preview"),
     Row(("edges",), partial(_with_look, "has lines without it"), "preview"),

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hlr.errors import OptionError
+from hlr.tables.projection_methods import PROJECTION_METHODS
 from hlr.tables.writers import WRITERS
 
 from .. import signals
@@ -47,6 +48,11 @@ CHANGED = 3
     "--view", "views", type=ViewName(), metavar="NAME|X,Y,Z", multiple=True,
     help="As of hlr draw; may be repeated. Default: front, top, right, iso.",
 )  # fmt: skip
+@click.option(
+    "--arrange",
+    type=click.Choice(list(PROJECTION_METHODS)),
+    help="All views of a source on one page, in line and at one scale, by this method.",
+)
 @click.option("--format", "formats", type=click.Choice(list(WRITERS)), multiple=True, help="May be repeated.")
 @click.option(
     "-j",
@@ -90,6 +96,7 @@ def batch(
     \b
       hlr batch                                   # what hlr.toml here says, or all models under this folder
       hlr batch parts -o drawings --view iso
+      hlr batch parts --arrange third-angle --format pdf
       hlr batch "parts/**/*.step" -o drawings --format svg --format pdf
 
     Exit codes: 0 all is drawn, 1 some sources failed and the rest is there, 2 the batch itself was wrong, or
@@ -150,12 +157,14 @@ class _Asked:
         output: str | None,
         views: Sequence[str | Vector3],
         formats: Sequence[str],
+        arrange: str | None,
         strict: bool,
     ) -> None:
         self._sources, self._output, self._strict = sources, output, strict
         self._given = {
             "views": [view if isinstance(view, str) else list(view) for view in views],
             "formats": list(formats),
+            "arrange": arrange,
         }
 
     @property

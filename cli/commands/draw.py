@@ -10,8 +10,10 @@ import click
 
 from hlr.errors import OptionError
 from hlr.tables.line_classes import optional
+from hlr.tables.projection_methods import PROJECTION_METHODS
 from hlr.tables.writers import WRITERS, formats
 
+from ..arranged_page import draw_arranged_page
 from ..document_pages import draw_document_pages, names_a_page
 from ..drawn_files import Targets, targets_of, to_stdout, write
 from ..guard import start
@@ -38,6 +40,7 @@ from ..view_options import (
 if TYPE_CHECKING:
     from hlr.drawing.drawing import Drawing
     from hlr.drawing.notes import Note, Noted
+    from hlr.public.arranged import Method
     from hlr.request.options import Options, View
 
     from ..meter import Progress
@@ -85,6 +88,12 @@ LINES: tuple[Callable[[Command], Command], ...] = (
 @options(*CHOICE, *LINES)
 @options(*SIZE, WINDOW)
 @click.option(
+    "--arrange",
+    type=click.Choice(list(PROJECTION_METHODS)),
+    help="All views on one page, in line and at one scale, by this method. Default of --view then: front, top, left or "
+    "right, and iso.",
+)
+@click.option(
     "--all-pages", is_flag=True, help="FreeCAD: draw all TechDraw pages of the document, {view} in file names."
 )
 @click.option(
@@ -123,10 +132,17 @@ def draw(
     \b
       hlr draw part.step -o part.svg
       hlr draw part.step -o "{stem}-{view}.pdf" --view front --view top --view right
+      hlr draw part.step -o part.pdf --arrange third-angle
       hlr draw part.stl --view -1,1,1 --scale 1:2 -o - > part.svg
 
     A CadQuery or build123d script is run to get its model.
     """
+    arrange: Method | None = chosen.pop("arrange")
+    if arrange is not None:
+        _check_arranged(all_pages or names_a_page(source, chosen["page"]), explain)
+        request = request_of(style=style_from(chosen), **chosen)
+        draw_arranged_page(source, outputs, arrange, views, format, request, {"as_json": as_json, "quiet": quiet})
+        return
     if all_pages or names_a_page(source, chosen["page"]):
         page = None if all_pages else chosen["page"]
         asked = request_of(style=style_from(chosen), **{**chosen, "page": chosen["page"] if all_pages else None})
@@ -168,6 +184,16 @@ def draw(
             out.put(summary(drawings, targets))
     for drawing, row in zip(drawings, targets, strict=True):
         tell_written(written(drawing, row), quiet)
+
+
+def _check_arranged(of_document: bool, explain: bool) -> None:
+    """Raises OptionError where something is asked for that a page with several views has not."""
+    if of_document:
+        raise OptionError(
+            "a page of a document arranges its own views: leave out --arrange, or give the name of a sheet"
+        )
+    if explain:
+        raise OptionError("each view of a page has steps of its own: leave out --explain, or --arrange")
 
 
 def _check_of_page(views: tuple[View, ...], explain: bool) -> None:

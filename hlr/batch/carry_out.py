@@ -19,6 +19,7 @@ from hlr.errors import HlrError
 if TYPE_CHECKING:
     from hlr.common.types import Progress
     from hlr.drawing.drawing import Drawing
+    from hlr.public.arranged import Method
     from hlr.request.options import View
 
 
@@ -56,10 +57,17 @@ def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
 
 def _drawn(job: Job, progress: Progress | None) -> Outcome:
     from hlr.drawing.saving import render
-    from hlr.public.draw import draw_views
 
+    source, views = str(Path(job.root, job.source)), cast("list[View]", list(job.views))
     options = options_of(job.options, job.root)
-    drawings = draw_views(str(Path(job.root, job.source)), cast("list[View]", list(job.views)), options, progress)
+    if job.arrange:
+        from hlr.public.arranged import draw_arranged
+
+        drawings = [draw_arranged(source, cast("Method", job.arrange), views, options, progress)]
+    else:
+        from hlr.public.draw import draw_views
+
+        drawings = draw_views(source, views, options, progress)
     started = perf_counter()
     contents = tuple(tuple(render(drawing, format) for format in job.formats) for drawing in drawings)
     writing = (perf_counter() - started) / len(drawings)

@@ -15,13 +15,14 @@ class Job:
 
     root             the folder that all paths start from, absolute
     source           path of the source, seen from the root, with / between folders
-    views, formats   each view is written in each format
-    files            paths of the files, seen from the folder of outputs: views by formats
+    views, formats   each drawing is written in each format
+    files            paths of the files, seen from the folder of outputs: drawings by formats
     options          fields of `hlr.Options`
     depends          paths of files that the source depends on besides, seen from the root
     time_limit_s     seconds after which the job is given up
     memory_limit_mb  megabytes of memory above which the job is given up
     rule             where the manifest asks for it: keys that lead to its table
+    arrange          the method by which all views are arranged on one page; empty: each view is a drawing
     """
 
     root: str
@@ -34,11 +35,17 @@ class Job:
     time_limit_s: float = 600.0
     memory_limit_mb: float = 4000.0
     rule: tuple[str | int, ...] = ()
+    arrange: str = ""
 
     @property
     def title(self) -> str:
         """What the job is called in messages: the source, and the parameters of a script."""
         return " ".join((self.source, *(f"{name}={value}" for name, value in self.parameters.items())))
+
+    @property
+    def drawings(self) -> tuple[View, ...]:
+        """What each drawing shows: a view, or all of them, arranged by a method."""
+        return (self.arrange,) if self.arrange else self.views
 
     @property
     def parameters(self) -> Mapping[str, Any]:
@@ -59,8 +66,8 @@ class Outcome:
     """What became of a job.
 
     failure         None: it was drawn
-    drawings        facts of each view, as they stand in the report
-    contents        of each file: views by formats
+    drawings        facts of each drawing, as they stand in the report
+    contents        of each file: drawings by formats
     depends         files that the source pulled in: paths seen from the root, or absolute outside it
     seconds         by the clock
     peak_memory_mb  the most memory that the job took; 0: unknown

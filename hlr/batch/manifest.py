@@ -18,6 +18,7 @@ from hlr.batch.request import NAMES
 from hlr.batch.schema import KEYS
 from hlr.common.toml import parsed
 from hlr.errors import OptionError
+from hlr.tables.projection_methods import PROJECTION_METHODS
 from hlr.tables.writers import WRITERS, formats
 
 FILE, PROJECT = "hlr.toml", "pyproject.toml"
@@ -164,6 +165,8 @@ def _check(table: Mapping[str, Any], where: Where, wrong: Any) -> None:
 
 def _rule(table: Mapping[str, Any], where: Where, own: Mapping[str, Any]) -> Rule:
     values = {name: table.get(name, key.default) for name, key in KEYS.items()}
+    if values["arrange"] and "views" not in table:
+        values["views"] = list(PROJECTION_METHODS[values["arrange"]].usual)
     # Parameters are a matrix of variants here, and each variant's own values in the options of its job.
     options = {name: value for name, value in table.items() if name not in KEYS}
     return Rule(values, options, where, frozenset(own))

@@ -14,7 +14,7 @@ from typing import Any
 from hlr.batch.discover import files_named, models_under, named, takes_parameters, without
 from hlr.batch.job import Job
 from hlr.batch.manifest import Manifest, Rule
-from hlr.batch.schema import KEYS, listed
+from hlr.batch.schema import KEYS, as_list
 from hlr.errors import OptionError
 
 MOST_VARIANTS = 10_000
@@ -73,7 +73,7 @@ def _stem(path: Path) -> str:
 
 def _sources(manifest: Manifest, rule: Rule, output: Path, silent: list[Path]) -> list[Path]:
     """The sources of a rule. silent: gets the scripts that show nothing, as of `models_under`."""
-    root, patterns, exclude = manifest.root, listed(rule.values["files"]), listed(rule.values["exclude"])
+    root, patterns, exclude = manifest.root, as_list(rule.values["files"]), as_list(rule.values["exclude"])
     unshown: list[Path] = []
     found = [] if patterns else list(models_under(root, unshown))
     for pattern in patterns:
@@ -106,7 +106,7 @@ def shows_nothing(silent: Sequence[Path]) -> str:
 def _depends(manifest: Manifest, rule: Rule) -> tuple[str, ...]:
     """Paths of the files that the sources of a rule depend on besides, seen from the root."""
     found = []
-    for pattern in listed(rule.values["depends"]):
+    for pattern in as_list(rule.values["depends"]):
         files = files_named(manifest.root, pattern)
         if not files:
             raise manifest.error((*rule.where, "depends"), f"{pattern} names no file under {manifest.root}")
@@ -118,18 +118,18 @@ def _jobs(manifest: Manifest, rule: Rule, path: Path, options: Mapping[str, Any]
     """A job for each variant of a source. alone: no other source of the rule differs in its ending only."""
     values = rule.values
     views = tuple(tuple(view) if isinstance(view, list) else view for view in _views(values["views"]))
-    formats = tuple(dict.fromkeys(listed(values["formats"])))
+    formats = tuple(dict.fromkeys(as_list(values["formats"])))
     root, source = str(manifest.root), Path(os.path.relpath(path, manifest.root)).as_posix()
     template = values["name"]
     if not alone and template == KEYS["name"].default:
         template = template.replace("{stem}", "{stem}.{ending}")
-    base = Job(root, source, views, formats, (), options)
+    base = Job(root, source, views, formats, (), options, arrange=values["arrange"])
     base = replace(base, time_limit_s=values["time_limit_s"], memory_limit_mb=values["memory_limit_mb"])
     for variant in _variants(manifest, rule) if takes_parameters(path) else [{}]:
         more = {"parameters": variant} if variant else {}
         names = [
             _filled(manifest, rule, template, _fields(source, view, number, variant))
-            for number, view in enumerate(views, 1)
+            for number, view in enumerate(base.drawings, 1)
         ]
         files = tuple(tuple(f"{name}.{format}" for format in formats) for name in names)
         yield replace(base, files=files, options={**options, **more}, rule=rule.where)
@@ -142,7 +142,7 @@ def _views(value: Any) -> list[Any]:
 
 def _variants(manifest: Manifest, rule: Rule) -> list[dict[str, Any]]:
     """All combinations of the parameters' values; one without any where there are none."""
-    matrix = {name: listed(value) for name, value in rule.values["parameters"].items()}
+    matrix = {name: as_list(value) for name, value in rule.values["parameters"].items()}
     count = 1
     for each in matrix.values():
         count *= len(each)
@@ -187,7 +187,7 @@ def _check_names(manifest: Manifest, jobs: Sequence[Job]) -> None:
     """Raise OptionError where two drawings have one file, or one that the report needs."""
     first = {name: ("the report", name) for name in REPORTS}
     for job in jobs:
-        for row, view in zip(job.files, job.views, strict=True):
+        for row, view in zip(job.files, job.drawings, strict=True):
             for file in row:
                 what = f"{job.title}, {view}"
                 # As a file system sees it that takes large and small letters for the same.

@@ -41,18 +41,25 @@ def files_of(values: Mapping[str, Any], root: str) -> dict[str, str]:
     return {name: file for name, file in named.items() if os.path.isfile(os.path.join(root, file))}
 
 
-def check(values: Mapping[str, Any], views: tuple[Any, ...], root: str) -> None:
-    """Check options and views as `hlr.draw_views` does, before any work. Raises OptionError, ViewError."""
+def check(values: Mapping[str, Any], views: tuple[Any, ...], root: str, arrange: str = "") -> None:
+    """Check options and views as `hlr.draw_views` does, before any work. Raises OptionError, ViewError.
+
+    arrange: the method by which the views are arranged on one page; empty: they are not.
+    """
+    from hlr.public.arranged import check_arranged
     from hlr.request.check import checked, checked_views
 
-    checked_views(views, checked(options_of(values, root)))
+    options = checked(options_of(values, root))
+    checked_views(views, options)
+    if arrange:
+        check_arranged(options)
 
 
-def wrong_one(values: Mapping[str, Any], root: str) -> str | None:
+def wrong_one(values: Mapping[str, Any], root: str, arrange: str = "") -> str | None:
     """The first of these options that is refused by itself; None: only together they are."""
     for name, value in values.items():
         try:
-            check({name: value}, ("iso",), root)
+            check({name: value}, ("iso",), root, arrange)
         except HlrError:
             return name
     return None

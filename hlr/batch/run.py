@@ -143,11 +143,14 @@ def _check_options(manifest: Manifest, jobs: Sequence[Job]) -> None:
         if (job.rule, job.views) in seen:
             continue
         seen.add((job.rule, job.views))
+        if job.arrange and "json" in job.formats:
+            text = "a page of several views cannot be written as JSON: use svg, pdf, dxf or png"
+            raise manifest.error((*job.rule, "formats"), text)
         options = {name: value for name, value in job.options.items() if name != "parameters"}
         try:
-            check(options, job.views, job.root)
+            check(options, job.views, job.root, job.arrange)
         except HlrError as error:
-            name = wrong_one(options, job.root) or "views"
+            name = wrong_one(options, job.root, job.arrange) or "views"
             documents = [each.source for each in jobs if each.rule == job.rule and _has_pages(each.source)]
             is_page = name == "page" and isinstance(options[name], str) and documents
             text = _no_pages(options["page"], documents[0]) if is_page else str(error)

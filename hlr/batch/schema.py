@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from hlr.common.numbers import is_finite
+from hlr.tables.entry import listed
+from hlr.tables.projection_methods import PROJECTION_METHODS
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +79,12 @@ KEYS = {
         _is_views,
         "the views of each source",
     ),
+    "arrange": Key(
+        "",
+        f"{listed(PROJECTION_METHODS, 'or')}, or an empty text",
+        lambda value: isinstance(value, str) and value in ("", *PROJECTION_METHODS),
+        "all views of a source on one page, by first-angle or third-angle projection; empty: a page for each view",
+    ),
     "formats": Key(["svg"], _TEXTS, _is_texts, "the formats of each view"),
     "name": Key(
         "{folder}/{stem}{variant}-{view}",
@@ -97,6 +105,6 @@ KEYS = {
 """All keys, in the order in which people are told of them."""
 
 
-def listed(value: Any) -> list[Any]:
+def as_list(value: Any) -> list[Any]:
     """A list as it is; anything else as a list of one."""
     return value if isinstance(value, list) else [value]

@@ -55,7 +55,7 @@ def main() -> None:
             job: Job = receive(reading)
             send(writing, ("at", os.getpid()))
             if _FORKS:
-                for entry in ("hlr.public.draw:draw_views", *(WRITERS[format].entry for format in job.formats)):
+                for entry in ("hlr.public.arranged:draw_arranged", *(WRITERS[format].entry for format in job.formats)):
                     called(entry)  # imports it
                 while _in_child(job, writing, imported):
                     send(writing, ("at", os.getpid()))

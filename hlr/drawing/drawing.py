@@ -100,8 +100,8 @@ class Drawing(ByValue):
     plan      for each effect whether it was on, why, and what it cost
     window    the rectangle on paper at which lines and fill were cut; None: nothing was cut
     page      the page, and where the drawing lies on it; None: the file is as large as the drawing or its window
-    sheet     the views, where there are several; then `view`, `scale` and `origin` are those of the page, which say
-              nothing of the model
+    sheet     the views, where there are several; then `view` and `origin` are those of the page, which say nothing of
+              the model; `scale` is that of all views, or 1 where each has its own
     style     how it looks, in SVG, PDF, DXF and PNG
     group     widths of wide and narrow lines, millimetres, because lines are crowded; a style that names widths
               overrides them. None: those of the page

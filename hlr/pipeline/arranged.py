@@ -105,7 +105,7 @@ def _together(
     whole = Drawing(
         source=drawings[0].source,
         view=DrawnView(method.name, "orthographic", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
-        scale=1.0,
+        scale=found.scale,
         origin=(0.0, 0.0),
         accuracy=Accuracy(options.accuracy, accuracy),
         unit=1.0,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 from hlr.common.keywords import expect_record
 from hlr.common.threads import at_most
@@ -48,7 +48,7 @@ def draw_arranged(
     >>> import hlr
     >>> page = hlr.draw_arranged("part.step", "third-angle")
     >>> page
-    <Drawing part.step, third-angle, 1:1, 27 visible and 6 hidden lines>
+    <Drawing part.step, third-angle, 2:1, 23 visible and 4 hidden lines>
     >>> [(view.name, view.scale) for view in page.sheet.views]
     [('front', 2.0), ('top', 2.0), ('right', 2.0), ('iso', 2.0)]
     """
@@ -56,11 +56,17 @@ def draw_arranged(
     if row is None:
         raise OptionError(f"no method is called {method!r}: give {listed(PROJECTION_METHODS, 'or')}")
     options = checked(expect_record(Options, options, "draw_arranged"))
+    check_arranged(options)
+    if views is not None and not views:
+        raise OptionError("a page needs a view: give one, or None for the usual ones")
+    with at_most(options.threads):
+        chosen = cast("Sequence[View]", row.usual) if views is None else views
+        return draw_on_one_page(source, chosen, row, options, progress)
+
+
+def check_arranged(options: Options) -> None:
+    """Raise OptionError for options that say something of a single view."""
     usual = Options()
     if barred := [name for name in OF_ONE_VIEW if getattr(options, name) != getattr(usual, name)]:
         what = f"option{'s' if len(barred) > 1 else ''} {listed(barred, 'and')}"
         raise OptionError(f"the views of a page have one scale and stand in line: leave out the {what}")
-    if views is not None and not views:
-        raise OptionError("a page needs a view: give one, or None for the usual ones")
-    with at_most(options.threads):
-        return draw_on_one_page(source, row.usual if views is None else views, row, options, progress)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hlr.request.options import ViewName
 from hlr.tables.entry import Table
 
 Cell = tuple[int, int]
@@ -22,7 +21,7 @@ class ProjectionMethod:
 
     name: str
     cells: dict[str, Cell]
-    usual: tuple[ViewName, ...]
+    usual: tuple[str, ...]
     free: tuple[Cell, ...]
 
 

@@ -205,3 +205,25 @@ def test_a_change_since_the_baseline_is_exit_code_3(hlr_batch):
     assert hlr_batch("--view", "iso", "--baseline", "old", "--fail-on-change", "-q").returncode == 3
     refused = hlr_batch("--fail-on-change")
     assert refused.returncode == 2 and refused.stderr.startswith("hlr: --fail-on-change needs --baseline")
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ("formats = ['svg', 'json']", "formats: a page of several views cannot be written as JSON"),
+        ("fit = 'A4'", "fit: the views of a page have one scale and stand in line: leave out the option fit"),
+    ],
+)
+def test_what_an_arranged_page_cannot_have_is_refused_before_any_work(hlr_batch, keys, words):
+    tetrahedron(hlr_batch.folder / "part.off", 1)
+    (hlr_batch.folder / "hlr.toml").write_text(f"arrange = 'third-angle'\n{keys}\n")
+    done = hlr_batch()
+    assert done.returncode == 2
+    assert f"hlr.toml, line 2, {words}" in done.stderr
+    assert not list(hlr_batch.folder.rglob("*.svg"))
+
+
+def test_an_arranged_page_on_the_command_line(hlr_batch):
+    tetrahedron(hlr_batch.folder / "part.off", 1)
+    done = hlr_batch("part.off", "--arrange", "first-angle", "--list")
+    assert [line.rpartition("/")[2] for line in done.stdout.split()] == ["part-first-angle.svg"]

@@ -1,0 +1,46 @@
+"""`--arrange`: several views on one page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+DATA = Path(__file__).parents[1] / "data"
+STEP = str(DATA / "as1-oc-214.stp")
+HOUSING = str(DATA / "housing_body.FCStd")
+
+
+@pytest.mark.slow
+def test_a_page_of_four_views(hlr_real, tmp_path):
+    done = hlr_real("draw", STEP, "--arrange", "third-angle", "-o", "a.svg", "-o", "{stem}-{view}.pdf", "-q")
+    assert (done.code, done.err) == (0, "")
+    svg = (tmp_path / "a.svg").read_text("utf-8")
+    assert all(f'<view name="{name}"' in svg for name in ("front", "top", "right", "iso"))
+    assert (tmp_path / "as1-oc-214-third-angle.pdf").read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.slow
+def test_views_that_are_asked_for(hlr_real, tmp_path):
+    done = hlr_real("draw", STEP, "--arrange", "first-angle", "--view", "left", "--view", "1,2,3", "-o", "a.svg", "-q")
+    assert done.code == 0
+    svg = (tmp_path / "a.svg").read_text("utf-8")
+    assert svg.count("<view ") == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ((STEP, "--arrange", "fourth-angle"), "'fourth-angle' is not one of 'first-angle', 'third-angle'"),
+        ((STEP, "--arrange", "first-angle", "--explain"), "leave out --explain, or --arrange"),
+        ((STEP, "--arrange", "first-angle", "--window", "0,0,9,9"), "leave out the option window"),
+        ((HOUSING, "--arrange", "first-angle", "--all-pages"), "leave out --arrange"),
+        ((HOUSING, "--arrange", "first-angle", "--page", "Page"), "leave out --arrange"),
+        ((STEP, "--arrange", "first-angle", "-o", "a.json"), "cannot be written as JSON"),
+    ],
+)
+def test_what_cannot_be_is_refused(hlr_real, tmp_path, arguments, words):
+    done = hlr_real("draw", *arguments)
+    assert done.code == 2
+    assert words in done.err
+    assert not list(tmp_path.iterdir())

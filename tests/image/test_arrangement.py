@@ -1,0 +1,96 @@
+"""Where several views lie on one page: cells of the two methods, scales, gaps, and pages without room."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import pytest
+
+from hlr.errors import OptionError
+from hlr.image.arrangement import LEAST_GAP, arranged
+from hlr.tables.projection_methods import PROJECTION_METHODS
+from hlr.tables.sheets import MARGIN, papers
+
+BLOCK = {"front": (60, 30), "back": (60, 30), "top": (60, 20), "bottom": (60, 20), "left": (20, 30), "right": (20, 30),
+         "iso": (50, 50), "iso-sw": (50, 50), "iso-ne": (50, 50)}  # fmt: skip
+"""Width and height of the views of a block of 60 x 20 x 30 mm, nearly."""
+
+
+def page(names, method="third-angle", sheet="A4", scale=None):
+    sizes = [BLOCK[name] for name in names]
+    found = arranged(names, sizes, PROJECTION_METHODS[method], papers(sheet), scale)
+    return found, dict(zip(names, found.places(sizes), strict=True))
+
+
+def box(name, place, scale):
+    (x, y), (width, height) = place, BLOCK[name]
+    return x - scale * width / 2, y - scale * height / 2, x + scale * width / 2, y + scale * height / 2
+
+
+@pytest.mark.parametrize(
+    ("method", "above", "right"), [("first-angle", "bottom", "left"), ("third-angle", "top", "right")]
+)
+def test_the_sides_on_which_views_lie(method, above, right):
+    names = ["front", "top", "bottom", "left", "right", "back"]
+    _, at = page(names, method)
+    x, y = at["front"]
+    assert at[above][0] == x
+    assert at[above][1] > y
+    assert at[right][1] == y
+    assert at[right][0] > x
+    below, left = ({"top", "bottom"} - {above}).pop(), ({"left", "right"} - {right}).pop()
+    assert at[below][1] < y
+    assert at[left][0] < x
+    assert at["back"][0] > max(at["left"][0], at["right"][0])
+
+
+@pytest.mark.parametrize("method", list(PROJECTION_METHODS))
+@pytest.mark.parametrize("sheet", ["A4", "A3-portrait", "150x120"])
+@pytest.mark.parametrize("count", [1, 3, 4, 6, 9])
+def test_views_lie_apart_inside_the_margins(method, sheet, count):
+    names = list(BLOCK)[:count]
+    found, at = page(names, method, sheet)
+    boxes = [box(name, at[name], found.scale) for name in names]
+    for x0, y0, x1, y1 in boxes:
+        assert min(x0, y0) >= MARGIN - 0.1
+        assert x1 <= found.paper.width - MARGIN + 0.1
+        assert y1 <= found.paper.height - MARGIN + 0.1
+    for one, other in combinations(boxes, 2):
+        apart = [max(one[k] - other[k + 2], other[k] - one[k + 2]) for k in (0, 1)]
+        assert max(apart) >= LEAST_GAP - 1e-9
+
+
+def test_the_scale_is_the_largest_standard_one():
+    names = ["front", "top", "right", "iso"]
+    found, _ = page(names)
+    assert found.scale == 2.0
+    assert found.needs([BLOCK[name] for name in names]) <= (277, 190)
+    larger, _ = page(names, scale=5.0)
+    assert larger.needs([BLOCK[name] for name in names])[0] > 277
+
+
+def test_a_pictorial_view_takes_the_free_cell_that_leaves_the_largest_scale():
+    assert page(["front", "top", "right", "iso"])[0].cells[3] == (1, 1)
+    assert page(["front", "top", "left", "iso"], "first-angle")[0].cells[3] == (1, -1)
+    # On a wide page there is more room beside the front view than above it.
+    assert page(["front", "iso"], sheet="150x70")[0].cells == ((0, 0), (1, 0))
+
+
+def test_a_sheet_lies_the_way_that_allows_the_larger_scale():
+    assert page(["front", "top"])[0].paper.name == "A4"
+    assert page(["front", "back"])[0].paper.width == 297.0
+    tall = arranged(["front"], [(10, 100)], PROJECTION_METHODS["first-angle"], papers("A4"), None)
+    assert (tall.scale, tall.paper.height) == (2.0, 297.0)
+
+
+@pytest.mark.parametrize(
+    ("names", "sheet", "words"),
+    [
+        (["front", "top", "front"], "A4", "the view front is given twice"),
+        (["front", "top", "right", "iso"], "30x30", "a page of 30 x 30 mm has no room for 4 views with 10 mm between"),
+        (["front", *["iso"] * 12], "A4", "13 views are too many for one page"),
+    ],
+)
+def test_what_cannot_be_arranged_is_refused(names, sheet, words):
+    with pytest.raises(OptionError, match=words):
+        page(names, sheet=sheet)
