@@ -55,7 +55,7 @@ hlr/docs/limits
 :hidden:
 :caption: Look up
 hlr/docs/api
-hlr/writers/JSON
+hlr/docs/json
 hlr/writers/PNG
 hlr/docs/GLOSSARY
 CHANGELOG

@@ -1,4 +1,4 @@
-"""The exchange format: all fields of a drawing, as JSON. JSON.md beside this file describes it."""
+"""The exchange format: all fields of a drawing, as JSON. hlr/docs/json.md describes it."""
 
 from __future__ import annotations
 

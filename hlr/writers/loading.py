@@ -1,4 +1,4 @@
-"""`hlr.load`: reads a drawing from the exchange format, which `hlr/writers/JSON.md` describes."""
+"""`hlr.load`: reads a drawing from the exchange format, which `hlr/docs/json.md` describes."""
 
 from __future__ import annotations
 

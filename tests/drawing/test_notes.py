@@ -15,7 +15,7 @@ from support.at_size import AT_SIZE
 
 def test_there_is_one_table_of_codes_and_the_format_describes_it():
     assert get_args(NoteCode) == tuple(CODES)
-    described = (Path(hlr.__file__).parent / "writers" / "JSON.md").read_text()
+    described = (Path(hlr.__file__).parent / "docs" / "json.md").read_text()
     assert all(f"| `{code}` | {meaning} |" in described for code, meaning in CODES.items())
     remarks = re.split(r" are remarks, the others\swarnings", described)[0].rpartition("\n\n")[2]
     assert set(re.findall("`(.*?)`", remarks)) == REMARKS
