@@ -80,7 +80,9 @@ def _refuse(message: str, kind: str, code: int = REFUSED) -> NoReturn:
     if _Asked.json and sys.stdout is not None:
         import json
 
-        document = {"error": {"kind": kind, "message": text, "exit_code": code}}
+        from hlr.tables.documents import head
+
+        document = head("hlr-error") | {"error": {"kind": kind, "message": text, "exit_code": code}}
         with contextlib.suppress(HlrError, ReaderGoneError):
             sys.stdout.write(json.dumps(document, indent=2) + "\n")
     _leave(code)

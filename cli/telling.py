@@ -45,6 +45,7 @@ def summary(drawings: Sequence[Drawing], targets: Targets) -> bytes:
     import json
     from dataclasses import asdict
 
+    from hlr.tables.documents import head
     from hlr.writers.json import accuracies
 
     entries = [
@@ -67,7 +68,8 @@ def summary(drawings: Sequence[Drawing], targets: Targets) -> bytes:
         for target in row
     ]
     # Counters may be numbers of NumPy.
-    return json.dumps({"drawings": entries}, indent=2, default=lambda value: value.tolist()).encode("ascii") + b"\n"
+    document = head("hlr-summary") | {"drawings": entries}
+    return json.dumps(document, indent=2, default=lambda value: value.tolist()).encode("ascii") + b"\n"
 
 
 def tell_report(drawings: Sequence[Drawing]) -> None:

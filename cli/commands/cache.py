@@ -43,13 +43,12 @@ def info(as_json: bool) -> None:
     if as_json:
         import json
 
+        from hlr.tables.documents import head
+
         folder = None if store is None else str(store.folder)
         most = None if store is None else store.most
-        click.echo(
-            json.dumps(
-                {"folder": folder, "models": models, "drawn": drawn, "bytes": size, "most_bytes": most}, indent=2
-            )
-        )
+        found = {"folder": folder, "models": models, "drawn": drawn, "bytes": size, "most_bytes": most}
+        click.echo(json.dumps(head("hlr-cache") | found, indent=2))
     elif store is None:
         click.echo(_OFF)
     else:

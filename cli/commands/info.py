@@ -60,7 +60,10 @@ def info(source: str, as_json: bool, quiet: bool, **chosen: Any) -> None:
 
 
 def _document(model: ModelInfo) -> dict[str, Any]:
+    from hlr.tables.documents import head
+
     return {
+        **head("hlr-info"),
         "source": model.source,
         "kind": model.kind,
         "unit": float(model.unit),

@@ -50,8 +50,10 @@ def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **
         if as_json:
             import json
 
+            from hlr.tables.documents import head
+
             entries = [{"view": p.view, "plan": [d.as_dict() for d in p.decisions]} for p in planned]
-            text = json.dumps({"plans": entries}, indent=2)
+            text = json.dumps(head("hlr-plan") | {"plans": entries}, indent=2)
         else:
             from hlr.request.effect import explained
 

@@ -18,11 +18,10 @@ from hlr.batch.keys import Digests
 from hlr.batch.page import write as page
 from hlr.batch.run import Done
 from hlr.drawing import files
+from hlr.tables.documents import head
 
 if TYPE_CHECKING:
     from hlr.batch.changes import Changes
-
-FORMAT, VERSION = "hlr-batch", 1
 
 Document = dict[str, Any]
 
@@ -33,8 +32,7 @@ def document(done: Done, digests: Digests, changes: Changes | None = None) -> Do
 
     sources = [_source(job, outcome, digests) for job, outcome in zip(done.plan.jobs, done.outcomes, strict=True)]
     found: Document = {
-        "format": FORMAT,
-        "version": VERSION,
+        **head("hlr-batch"),
         "hlr": version("hlr-drawing"),
         "counts": {
             "sources": len(sources),

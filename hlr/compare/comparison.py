@@ -17,11 +17,10 @@ from hlr.compare.reading.sides import Side
 from hlr.drawing.files import path_of, write_all
 from hlr.drawing.scale import ratio
 from hlr.errors import OptionError
+from hlr.tables.documents import head
 
 if TYPE_CHECKING:
     from hlr.compare.overlay.picture import Overlay
-
-FORMAT, VERSION = "hlr-comparison", 1
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -158,8 +157,7 @@ class Comparison:
     def to_dict(self) -> dict[str, Any]:
         """All of it but the picture, for JSON."""
         return {
-            "format": FORMAT,
-            "version": VERSION,
+            **head("hlr-comparison"),
             "before": self.before,
             "after": self.after,
             "same": self.same,

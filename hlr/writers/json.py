@@ -15,10 +15,10 @@ from hlr.drawing.drawing import Drawing, DrawnView
 from hlr.drawing.line import Line
 from hlr.errors import WriteError
 from hlr.request.style import Style
+from hlr.tables import documents
 from hlr.writers.number import NOT_FINITE
 
 FORMAT = "hlr-drawing"
-VERSION = 2
 
 
 def document(drawing: Drawing) -> bytes:
@@ -26,8 +26,7 @@ def document(drawing: Drawing) -> bytes:
     if drawing.sheet is not None:
         raise WriteError("a page of several views cannot be written as JSON: use svg, pdf, dxf or png")
     head = {
-        "format": FORMAT,
-        "version": VERSION,
+        **documents.head(FORMAT),
         "source": drawing.source,
         "units": "mm",
         "accuracy": accuracies(drawing),

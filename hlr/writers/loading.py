@@ -20,8 +20,9 @@ from hlr.drawing.page import Page
 from hlr.errors import OptionError, SourceError
 from hlr.request.effect import Decision
 from hlr.request.style import LineRule, Style
+from hlr.tables.documents import VERSIONS
 from hlr.tables.line_classes import LINE_CLASSES, Kind, names
-from hlr.writers.json import FORMAT, VERSION
+from hlr.writers.json import FORMAT
 from hlr.writers.revive import array, revived
 
 if TYPE_CHECKING:
@@ -72,9 +73,10 @@ def loads(text: str | bytes, name: str = "the text") -> Drawing:
         raise SourceError(f"{name} is neither text nor bytes, but {type(text).__name__}") from None
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise SourceError(f"{name} is no drawing of hlr: save a drawing as .json and load that")
-    if document.get("version") != VERSION:
+    version = VERSIONS[FORMAT]
+    if document.get("version") != version:
         raise SourceError(
-            f"{name} has version {document.get('version')!r} of the format, not {VERSION}: draw the model again"
+            f"{name} has version {document.get('version')!r} of the format, not {version}: draw the model again"
         )
     try:
         return _drawing(document)

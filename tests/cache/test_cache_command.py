@@ -33,7 +33,7 @@ def test_a_model_comes_and_goes(run, own_cache, tmp_path):
     assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
     known = json.loads(run("cache", "info", "--json").stdout)
     counts = {"models": 1, "drawn": 0, "bytes": path.stat().st_size, "most_bytes": 10**9}
-    assert known == {"folder": str(own_cache), **counts}
+    assert known == {"format": "hlr-cache", "version": 1, "folder": str(own_cache), **counts}
     cleared = run("cache", "clear").stdout
     assert cleared == f"{own_cache}: 1 model removed, {path_size(known)}\n"
     assert list(own_cache.iterdir()) == []

@@ -210,7 +210,9 @@ def test_a_closed_standard_output_is_said(child):
 def test_where_json_was_asked_for_errors_are_json_too(hlr_command, arguments, code, kind, words):
     result = hlr_command(*arguments)
     assert result.code == code
-    found = json.loads(result.out)["error"]
+    document = json.loads(result.out)
+    found = document.pop("error")
+    assert document == {"format": "hlr-error", "version": 1}
     assert (found["kind"], found["exit_code"]) == (kind, code)
     assert words in found["message"]
     assert result.err == f"hlr: {found['message']}\n"
