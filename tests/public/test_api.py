@@ -2,9 +2,11 @@
 
 import inspect
 import os
+import re
 import subprocess
 import sys
 from dataclasses import fields
+from importlib import import_module
 from pathlib import Path
 from typing import get_args, get_type_hints
 
@@ -27,6 +29,34 @@ def test_all_public_names_are_listed_and_there():
     assert callable(hlr.methods) and callable(hlr.lab.study.study) and "study" in dir(hlr.lab.study)
     with pytest.raises(AttributeError, match="no attribute 'darw'"):
         _ = hlr.darw
+
+
+API = (Path(__file__).parents[2] / "hlr" / "docs" / "api.md").read_text("utf-8")
+
+
+def listed(heading):
+    """The rows of the page's table under this heading of its first column."""
+    table = API.partition(f"| {heading} |")[2].partition("\n\n")[0]
+    return [[cell.strip() for cell in row.strip("|").split("|")] for row in table.splitlines()[2:]]
+
+
+def test_the_page_lists_every_public_name_and_no_function_among_the_modules():
+    assert set(re.findall(r"hlr\.(\w+)", API)) >= set(hlr.__all__)
+    functions = {name for row in listed("function") for name in re.findall(r"`hlr\.(\w+)`", row[0])}
+    assert functions == {name for name in hlr.__all__ if inspect.isfunction(getattr(hlr, name))}
+    modules = {row[0].strip("`").removeprefix("hlr.") for row in listed("module")}
+    assert modules == {name for name in hlr.__all__ if inspect.ismodule(getattr(hlr, name))}
+
+
+@pytest.mark.parametrize("row", listed("module"), ids=lambda row: row[0].strip("`"))
+def test_the_page_says_what_each_module_offers(row):
+    module = getattr(hlr, row[0].strip("`").removeprefix("hlr."))
+    assert import_module(row[1].strip("`")) is module
+    offered = set(re.findall(r"`(\w+)`", row[2]))
+    if hasattr(module, "__all__"):
+        assert offered == set(module.__all__)
+    else:
+        assert offered and all(import_module(f"{module.__name__}.{name}") for name in offered)
 
 
 def test_listing_the_names_loads_nothing():
