@@ -26,12 +26,13 @@ def draw_arranged_page(
     request: Options,
     told: Mapping[str, Any],
 ) -> None:
-    """Draw views on one page into files. views: none for the usual ones; told: as_json and quiet.
+    """Draw views on one page into files. views: none for the usual ones; told: as_json, quiet and
+    time_limit.
 
     Raises OptionError where other options contradict the page; else as `hlr.draw_arranged`.
     """
     targets = targets_of(outputs, source, [method], format, told["as_json"])
-    start(source)
+    start(source, told["time_limit"])
     with result_only() as out:
         with meter(told["quiet"]) as progress:
             import hlr

@@ -42,13 +42,13 @@ def draw_document_pages(
     request: Options,
     told: Mapping[str, Any],
 ) -> None:
-    """Draw one page of a document, or all, into files. page: None for all; told: as_json and quiet.
+    """Draw one page of a document, or all, into files. page: None for all; told: as_json, quiet and time_limit.
 
     Raises OptionError where other options contradict the page; else as `hlr.draw_pages`.
     """
     # What cannot be a name of files is refused before the document is read for the names of all its pages.
     targets = targets_of(outputs, source, ["page" if page is None else page], format, told["as_json"])
-    start(source)
+    start(source, told["time_limit"])
     with result_only() as out:
         with meter(told["quiet"]) as progress:
             import hlr

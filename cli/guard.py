@@ -5,7 +5,7 @@ or abort. Python cannot catch that in its own process. So the process that was s
 turns the signal that ended it into a sentence. Signals are passed on to the worker; the exit code, standard input and
 standard output are the worker's: from outside there is one program. The worker reports how it ended; if it ends without
 a report, a script that it ran has ended it. If the process that started the command is gone, the work ends too, unless
-`nohup` was used.
+`nohup` was used. Where the work does not succeed, what a script has started ends with it.
 
 Every drawing has a worker, whatever the source: forking a process that has imported nothing but click takes about a
 millisecond, and a mesh can use up the memory too. Help, versions and refused options need no worker. There is none
@@ -15,7 +15,9 @@ without `fork` (Windows), nor where another program calls the command line: ther
 from __future__ import annotations
 
 import contextlib
+import math
 import os
+import re
 import select
 import signal
 import threading
@@ -23,8 +25,9 @@ import time
 from pathlib import Path
 from typing import NoReturn
 
+from hlr.common.leftovers import Leftovers
 from hlr.common.process import CRASHES, claim, tie_to, without_core_files
-from hlr.errors import SourceError
+from hlr.errors import OptionError, SourceError
 from hlr.tables.readers import of_ending
 
 from .signals import STOPPING, Stopped, hang_up_ignored
@@ -37,6 +40,12 @@ _PATIENCE = 2.0
 
 _GLANCE = 0.25
 """Seconds between two checks whether the process that started the command still runs."""
+
+_HELPER = "helper"
+"""What a report on a helper begins with."""
+
+_RESULTS = (0, 1)
+"""Exit codes of a command that has done its work: `hlr compare` says by 1 that drawings differ."""
 
 
 class CrashError(Exception):
@@ -57,14 +66,18 @@ def allow() -> None:
     _Worker.parent = os.getppid() if _Worker.allowed else None
 
 
-def start(source: str) -> None:
+def start(source: str, limit_s: float | None = None) -> None:
     """Continue in a worker. In the process that was started this never returns.
 
-    That process raises SourceError, CrashError or Stopped, by what ended the worker.
+    That process raises SourceError, CrashError or Stopped, by what ended the worker. limit_s: seconds after which it
+    ends the worker itself. Raises OptionError where there is a limit, and can be no worker.
     """
     if not _Worker.allowed or threading.active_count() > 1:
+        if limit_s is not None:
+            raise OptionError("--time-limit needs a process that hlr can end, and there is none here: leave it out")
         return
     reading, writing = os.pipe()
+    left = Leftovers()
     # Until both know what to do with it, no signal may reach only one of them.
     before = signal.pthread_sigmask(signal.SIG_BLOCK, STOPPING)
     own = os.getpid()
@@ -75,9 +88,11 @@ def start(source: str) -> None:
         return
     if worker:
         os.close(writing)
-        _forward(worker)
+        ending = _Ending(worker, left)
+        _forward(ending)
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
-        _wait(worker, reading, Path(source))
+        left.adopt()
+        _wait(ending, reading, Path(source), limit_s)
     os.close(reading)
     signal.pthread_sigmask(signal.SIG_SETMASK, before)
     _Worker.allowed, _Worker.notes = False, writing
@@ -93,33 +108,77 @@ def note(what: str) -> None:
             os.write(_Worker.notes, f"{what}\n".encode())
 
 
+def helped_by(process: int) -> None:
+    """Report a child of the worker that belongs to the command: it ends by itself, when it has done its part."""
+    note(f"{_HELPER} {process}")
+
+
 def kept_open() -> tuple[int, ...]:
     """Descriptors that a child process inherits so that the waiting process waits for it as well."""
     return () if _Worker.notes is None else (_Worker.notes,)
 
 
-def _forward(worker: int) -> None:
-    def forward(number: int, _frame: object) -> None:
+class _Ending:
+    """The worker, and whether it was told to end: by which signal; 0: it was not. late: it took too long."""
+
+    def __init__(self, worker: int, left: Leftovers) -> None:
+        self.worker, self.left = worker, left
+        self.told, self.late = 0, False
+        self._since = 0.0
+
+    def tell(self, number: int) -> None:
+        """Tell the worker to end by a signal that lets it tidy up. Its patience is that of the first."""
+        if not self.told:
+            self.left.look(self.worker)
+            self.told, self._since = number, time.monotonic()
         with contextlib.suppress(ProcessLookupError):
-            os.kill(worker, number)
+            os.kill(self.worker, number)
+
+    def insist(self) -> None:
+        """Kill a worker that does not end though it was told to: a script may ignore signals."""
+        if self.told and time.monotonic() - self._since > _PATIENCE:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(self.worker, signal.SIGKILL)
+
+
+def _forward(ending: _Ending) -> None:
+    def forward(number: int, _frame: object) -> None:
+        ending.tell(number)
 
     for number in STOPPING:
         if signal.getsignal(number) == signal.SIG_DFL:  # what is ignored stays ignored
             signal.signal(number, forward)
 
 
-def _wait(worker: int, reading: int, source: Path) -> NoReturn:
-    notes = _Notes(reading)
-    while not (ended := os.waitpid(worker, os.WNOHANG))[0]:
-        notes.listen(_GLANCE)
-        if orphaned():
-            _end(worker)
-            raise Stopped(signal.SIGTERM)
+def _wait(ending: _Ending, reading: int, source: Path, limit_s: float | None) -> NoReturn:
+    notes, end = _Notes(reading), math.inf if limit_s is None else time.monotonic() + limit_s
+    while not (ended := os.waitpid(ending.worker, os.WNOHANG))[0]:
+        notes.listen(max(min(_GLANCE, end - time.monotonic()), 0.01))
+        late = time.monotonic() >= end
+        if not ending.told and (late or orphaned()):
+            ending.late = late
+            ending.tell(signal.SIGTERM)
+        ending.insist()
     code = os.waitstatus_to_exitcode(ended[1])
-    notes.rest(_PATIENCE if code < 0 else 0.0)
+    notes.rest(0.0)
     stage, _, done = notes.last().partition(" ")
+    if stage != "done" or int(done) not in _RESULTS:
+        ending.left.kill(but=notes.helpers)
+        notes.rest(_PATIENCE if code < 0 else 0.0)
     if stage == "done":  # whatever became of it after that
         os._exit(int(done))
+    if ending.late:
+        raise SourceError(
+            f"{source.name} took longer than {limit_s:g} s and was given up: raise --time-limit, or ask for a larger "
+            "--accuracy"
+        )
+    if ending.told:
+        raise Stopped(ending.told)
+    _explain(source, stage, code)
+
+
+def _explain(source: Path, stage: str, code: int) -> NoReturn:
+    """Raise the error that says how a worker ended by itself: in which stage, and by which exit code or signal."""
     reader = of_ending(source.suffix)
     if code >= 0:
         if reader is not None and reader.kind == "script":
@@ -157,20 +216,12 @@ def end_when_orphaned() -> None:
     threading.Thread(target=watch, daemon=True).start()
 
 
-def _end(worker: int) -> None:
-    """End a worker by a signal that lets it tidy up; it ends with this process in any case."""
-    with contextlib.suppress(ProcessLookupError):
-        os.kill(worker, signal.SIGTERM)
-    end = time.monotonic() + _PATIENCE
-    while time.monotonic() < end and not os.waitpid(worker, os.WNOHANG)[0]:
-        time.sleep(0.01)
-
-
 class _Notes:
-    """What the worker says that it does."""
+    """What the worker says that it does. helpers: numbers of its processes that end by themselves."""
 
     def __init__(self, reading: int) -> None:
         self._reading, self._open, self._text = reading, True, b""
+        self.helpers: set[int] = set()
 
     def listen(self, seconds: float) -> bool:
         """Wait for a report, for so many seconds at most. Returns whether there may be more."""
@@ -179,7 +230,9 @@ class _Notes:
         elif select.select([self._reading], [], [], seconds)[0]:
             piece = os.read(self._reading, 4096)
             self._open = bool(piece)
-            self._text = (self._text + piece)[-4096:]
+            text = self._text + piece
+            self.helpers.update(int(number) for number in re.findall(rb"^%b (\d+)\n" % _HELPER.encode(), text, re.M))
+            self._text = text[-4096:]
             return self._open
         return False
 
@@ -190,6 +243,6 @@ class _Notes:
             pass
 
     def last(self) -> str:
-        """The last report."""
-        lines = self._text.decode("utf-8", "replace").splitlines()
+        """The last stage, or how all ended."""
+        lines = [line for line in self._text.decode("utf-8", "replace").splitlines() if not line.startswith(_HELPER)]
         return lines[-1] if lines else ""

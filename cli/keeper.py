@@ -24,6 +24,7 @@ def kept(out: Output) -> Iterator[Callable[[bytes], None]]:
         stdout=out.descriptor,
         pass_fds=guard.kept_open(),
     )
+    guard.helped_by(child.pid)
     assert child.stdin is not None
     stdin = child.stdin
 

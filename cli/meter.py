@@ -39,6 +39,7 @@ def meter(quiet: bool) -> Iterator[Progress]:
     except OSError:  # drawing matters more than showing progress
         yield _noting(None)
         return
+    guard.helped_by(child.pid)
     assert child.stdin is not None
     try:
         yield _noting(_sender(child.stdin))

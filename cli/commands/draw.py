@@ -109,6 +109,12 @@ LINES: tuple[Callable[[Command], Command], ...] = (
     metavar="TIME",
     help="Draw coarsely first, then finer while time lasts: 2s, 500ms, 1min. Not finer than --accuracy.",
 )
+@click.option(
+    "--time-limit",
+    type=Duration(),
+    metavar="TIME",
+    help="Give up after this time, and end a script with all that it has started: 60s, 5min. Not on Windows.",
+)
 @click.option("--report", is_flag=True, help="Measure the accuracy that was reached; takes longer than the drawing.")
 @options(*CAMERA, *STYLE, *RUN)
 @click.option("--format", type=click.Choice(list(WRITERS)), help="Format, where the name does not say it.")
@@ -138,16 +144,18 @@ def draw(
     A CadQuery or build123d script is run to get its model.
     """
     arrange: Method | None = chosen.pop("arrange")
+    time_limit = chosen.pop("time_limit")
+    told = {"as_json": as_json, "quiet": quiet, "time_limit": time_limit}
     if arrange is not None:
         _check_arranged(all_pages or names_a_page(source, chosen["page"]), explain)
         request = request_of(style=style_from(chosen), **chosen)
-        draw_arranged_page(source, outputs, arrange, views, format, request, {"as_json": as_json, "quiet": quiet})
+        draw_arranged_page(source, outputs, arrange, views, format, request, told)
         return
     if all_pages or names_a_page(source, chosen["page"]):
         page = None if all_pages else chosen["page"]
         asked = request_of(style=style_from(chosen), **{**chosen, "page": chosen["page"] if all_pages else None})
         _check_of_page(views, explain)
-        draw_document_pages(source, outputs, page, format, asked, {"as_json": as_json, "quiet": quiet})
+        draw_document_pages(source, outputs, page, format, asked, told)
         return
     started = time.perf_counter() - time.process_time()  # the time of loading counts as well
     names = names_of(views, chosen["eye"])
@@ -156,7 +164,7 @@ def draw(
     request = request_of(style=style, **chosen)
     targets = targets_of(outputs, source, names, format, as_json)
 
-    start(source)
+    start(source, time_limit)
     # Scripts and libraries may print: meanwhile only the result can reach standard output.
     with result_only() as out:
         with meter(quiet) as progress:

@@ -3,7 +3,8 @@
 It draws nothing itself. It imports what drawings need, and forks a child for each job: the child has all that is
 imported, and nothing that a script does reaches the next job. A child that crashes, or is killed, costs its job and no
 second import. OpenCASCADE and what stands on it take seconds to import, and not every job needs them: the child that
-first does ends there, the worker imports the package, and the job starts again in a new child.
+first does ends there, the worker imports the package, and the job starts again in a new child. What a script has
+started ends where its child does not succeed.
 
 Where there is no `fork` (Windows), or where it is not safe after such imports (macOS), the worker does the job itself.
 
@@ -29,6 +30,7 @@ from typing import Any, NoReturn
 from hlr.batch.carry_out import carry_out
 from hlr.batch.frames import receive, send
 from hlr.batch.job import Job
+from hlr.common.leftovers import Leftovers
 from hlr.common.process import claim, debugging, tie_to, without_core_files
 from hlr.tables.entry import called
 from hlr.tables.writers import WRITERS
@@ -93,15 +95,18 @@ def _done(job: Job, writing: int) -> Any:
 def _in_child(job: Job, writing: int, imported: set[str]) -> bool:
     """Do a job in a child, and pass on what it says. Returns whether the job has to start again."""
     here, there = os.pipe()
-    own = os.getpid()
+    own, left = os.getpid(), Leftovers()
     child = os.fork()
     if not child:
         _be_child(job, there, own, imported)
     os.close(there)
+    left.adopt()
     send(writing, ("at", child))
     said = _pass_on(here, child, writing)
     os.close(here)
     code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    if said[0] != "ended" or said[1].failure is not None:
+        left.kill()
     if said[0] == "needs":
         imported.add(said[1])
         for name in _HEAVY[said[1]]:

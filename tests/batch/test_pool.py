@@ -140,3 +140,32 @@ def test_a_job_that_was_given_up_says_nothing_to_the_next(tmp_path):
     finally:
         pool.close()
     assert outcome.failure is None
+
+
+STARTS = """
+import os, subprocess, sys, time
+started = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"], start_new_session=True)
+open("started-" + os.path.basename(__file__), "w").write(str(started.pid))
+"""
+
+
+def still_runs(path):
+    """Whether a process runs whose number a file names."""
+    import psutil
+
+    try:
+        return psutil.Process(int(path.read_text())).status() != "zombie"
+    except psutil.NoSuchProcess:
+        return False
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the worker does the job itself")
+def test_what_a_script_has_started_ends_where_its_job_fails(pool, tmp_path):
+    ends = {"aborts.py": "os.abort()", "fails.py": "1 / 0", "endless.py": "while True: pass"}
+    for name, end in ends.items():
+        (tmp_path / name).write_text(f"{STARTS}{end}\n")
+    jobs = [replace(job(tmp_path, name), time_limit_s=2.0) for name in ends]
+    outcomes = [event.outcome for event in pool.run(jobs) if event.outcome is not None]
+    assert len(outcomes) == 3 and all(outcome.failure is not None for outcome in outcomes)
+    assert [name for name in ends if still_runs(tmp_path / f"started-{name}")] == []

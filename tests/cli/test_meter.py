@@ -36,3 +36,12 @@ def test_ctrl_c_gives_the_cursor_back(on_terminal):
     assert code == -signal.SIGINT
     assert shown.count("\x1b[?25h") == shown.count("\x1b[?25l") > 0
     assert "Traceback" not in shown
+
+
+@pytest.mark.slow
+def test_a_time_limit_gives_the_cursor_back_before_its_sentence(on_terminal):
+    shown, code = on_terminal("draw", "slow.step", "-o", "a.svg", "--time-limit", "2s", columns=200)
+    assert code == 2
+    bar, sentence = shown.rsplit("\x1b[2K", 1)
+    assert bar.count("\x1b[?25h") == bar.count("\x1b[?25l") > 0
+    assert sentence.startswith("hlr: slow.step took longer than 2 s")
