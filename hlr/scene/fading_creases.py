@@ -71,22 +71,26 @@ class _Around:
         self._edge = np.tile(chosen, 2)[order]
         self._other = ends[:, ::-1].ravel(order="F")[order]
 
-    def at(self, vertex: int) -> list[tuple[int, int]]:
-        """(edge, its other vertex) of each."""
+    def at(self, vertex: int) -> tuple[Ints, Ints]:
+        """The edges at a vertex, and their other vertices."""
         first, last = np.searchsorted(self._vertex, [vertex, vertex + 1])
-        return list(zip(self._edge[first:last].tolist(), self._other[first:last].tolist(), strict=True))
+        return self._edge[first:last], self._other[first:last]
 
     def straight_on(self, end: _End) -> tuple[int, int] | None:
         """The edge that goes on most nearly straight, and its other vertex."""
-        turns = [(self.turn(end, other), edge, other) for edge, other in self.at(end.vertex) if other != end.before]
-        turn, edge, other = min(turns, default=(180.0, -1, -1))
-        return (edge, other) if turn <= STRAIGHT else None
+        edges, others = self.at(end.vertex)
+        if not len(edges):
+            return None
+        turns = np.where(others == end.before, 180.0, self.turns(end, others))
+        best = int(np.argmin(turns))
+        return (int(edges[best]), int(others[best])) if turns[best] <= STRAIGHT else None
 
-    def turn(self, end: _End, to: int) -> float:
-        """Degrees by which the way to the vertex `to` turns from the crease."""
+    def turns(self, end: _End, to: Ints) -> Floats:
+        """(k,) degrees by which the ways to the vertices `to` (k,) turn from the crease."""
         a = self._points[end.vertex] - self._points[end.before]
         b = self._points[to] - self._points[end.vertex]
-        return math.degrees(math.atan2(float(np.linalg.norm(np.cross(a, b))), float(a @ b)))
+        across = np.linalg.norm(np.cross(a, b), axis=-1)
+        return np.asarray(np.degrees(np.arctan2(across, b @ a)))
 
 
 def fading_edges(kind: Kinds, mesh: MeshFacts, triangles: Ints, fold: Floats, points: Floats) -> list[int]:
@@ -129,18 +133,22 @@ def _followed(
 ) -> list[int]:
     """Follows each crease while its fold stands out. The ends move on."""
     folded = np.flatnonzero((kind == 255) & (fold < math.cos(math.radians(LEAST_FOLD / STANDS_OUT))))
-    angle = {e: _degrees(c) for e, c in zip(folded.tolist(), fold[folded].tolist(), strict=True)}
     around = _Around(folded.astype(np.int32), mesh.edges, points)
+    taken: set[int] = set()
     for end in ends:
-        while (on := around.straight_on(end)) is not None and on[0] not in end.way:
+        # An edge is walked once: so all walks together are no longer than the mesh has edges.
+        while (on := around.straight_on(end)) is not None and on[0] not in taken:
             edge, other = on
             ahead = around.straight_on(_End(end.vertex, other))
-            along = {edge, *end.way[-1:], *(ahead or ())[:1]}
-            corners = np.unique(triangles[mesh.incident[mesh.offsets[edge] : mesh.offsets[edge + 1]]]).tolist()
-            beside = max((angle[e] for v in corners for e, _ in around.at(v) if e not in along), default=0.0)
-            if angle[edge] < max(LEAST_FOLD, FADES * end.fold, STANDS_OUT * beside):
+            along = [edge, *end.way[-1:], *(ahead or ())[:1]]
+            corners = np.unique(triangles[mesh.incident[mesh.offsets[edge] : mesh.offsets[edge + 1]]])
+            near = np.concatenate([around.at(vertex)[0] for vertex in corners.tolist()])
+            beside = fold[near[~np.isin(near, along)]].min(initial=1.0)
+            own = _degrees(float(fold[edge]))
+            if own < max(LEAST_FOLD, FADES * end.fold, STANDS_OUT * _degrees(float(beside))):
                 break
-            end.step(edge, other, angle[edge])
+            taken.add(edge)
+            end.step(edge, other, own)
     return [edge for end in ends for edge in end.way]
 
 
@@ -162,7 +170,7 @@ def _joined(ends: list[_End], kind: Kinds, edges: Ints, points: Floats) -> list[
             if facing is None:
                 continue
             gap = sum(math.dist(*points[edges[e]]) for e in last.way)
-            straight = around.turn(_End(facing.before, facing.vertex), last.before) <= STRAIGHT
+            straight = around.turns(_End(facing.before, facing.vertex), np.array([last.before]))[0] <= STRAIGHT
             if facing is not first and straight and gap <= GAP * min(first.length, facing.length):
                 found += last.way
             break
