@@ -117,6 +117,19 @@ class ScriptParameter(click.ParamType[tuple[str, bool | int | float | str]]):
         return name, int(text) if re.fullmatch(r"[+-]?\d{1,18}", text) else number
 
 
+class FieldText(click.ParamType[tuple[str, str]]):
+    """A field of a page template, and the text for it."""
+
+    name = "FIELD=TEXT"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[str, str]:
+        """The key of the field and the text."""
+        key, equals, text = str(value).partition("=")
+        if not equals or not key.strip():
+            self.fail(f"{value!r} is not a field and a text such as TITLE=Bracket", param, ctx)
+        return key.strip(), text
+
+
 class Duration(click.ParamType[float]):
     """A time: 2s, 500ms, 1min; a number alone is seconds."""
 

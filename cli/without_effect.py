@@ -191,6 +191,12 @@ ROWS: tuple[Row, ...] = (
     Row(("edges",), partial(_with_look, "has lines without it"), "preview"),
     Row(("antialias",), partial(_with_look, "has no faces, and lines are always smoothed"), "preview"),
     Row(("pixels",), _without("rivals", "has no effect: --no-rivals leaves the z-buffer out"), "study"),
+    Row(
+        ("template", "texts", "room"),
+        _without("arrange", "is for --arrange: leave it out, or say how views are arranged"),
+        "draw",
+        refused=True,
+    ),
     Row(("view", "no_cache"), _without("source", "is for a model: name one, or leave it out"), "methods", refused=True),
     Row(("coarse", "time_limit"), _without("against", "is for --against: leave it out"), "compare", refused=True),
     Row(_DRAWS, _with("init", "is for a batch, and --init draws none: leave it out"), "batch", refused=True),

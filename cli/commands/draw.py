@@ -10,10 +10,9 @@ import click
 
 from hlr.errors import OptionError
 from hlr.tables.line_classes import optional
-from hlr.tables.projection_methods import PROJECTION_METHODS
 from hlr.tables.writers import WRITERS, formats
 
-from ..arranged_page import draw_arranged_page
+from ..arranged_page import ARRANGE, draw_arranged_page
 from ..document_pages import draw_document_pages, names_a_page
 from ..drawn_files import Targets, targets_of, to_stdout, write
 from ..guard import start
@@ -87,12 +86,7 @@ LINES: tuple[Callable[[Command], Command], ...] = (
 @VIEW
 @options(*CHOICE, *LINES)
 @options(*SIZE, WINDOW)
-@click.option(
-    "--arrange",
-    type=click.Choice(list(PROJECTION_METHODS)),
-    help="All views on one page, in line and at one scale, by this method. Default of --view then: front, top, left or "
-    "right, and iso.",
-)
+@options(*ARRANGE)
 @click.option(
     "--all-pages", is_flag=True, help="FreeCAD: draw all TechDraw pages of the document, {view} in file names."
 )
@@ -144,12 +138,13 @@ def draw(
     A CadQuery or build123d script is run to get its model.
     """
     arrange: Method | None = chosen.pop("arrange")
+    printed = {name: chosen.pop(name) for name in ("template", "texts", "room")}
     time_limit = chosen.pop("time_limit")
     told = {"as_json": as_json, "quiet": quiet, "time_limit": time_limit}
     if arrange is not None:
         _check_arranged(all_pages or names_a_page(source, chosen["page"]), explain)
         request = request_of(style=style_from(chosen), **chosen)
-        draw_arranged_page(source, outputs, arrange, views, format, request, told)
+        draw_arranged_page(source, outputs, arrange, views, format, request, printed, told)
         return
     if all_pages or names_a_page(source, chosen["page"]):
         page = None if all_pages else chosen["page"]

@@ -63,7 +63,10 @@ def _drawn(job: Job, progress: Progress | None) -> Outcome:
     if job.arrange:
         from hlr.public.arranged import draw_arranged
 
-        drawings = [draw_arranged(source, cast("Method", job.arrange), views, options, progress)]
+        printed = dict(job.printed)
+        if "template" in printed:
+            printed["template"] = Path(job.root, printed["template"])
+        drawings = [draw_arranged(source, cast("Method", job.arrange), views, options, progress, **printed)]
     else:
         from hlr.public.draw import draw_views
 

@@ -23,6 +23,7 @@ class Job:
     memory_limit_mb  megabytes of memory above which the job is given up
     rule             where the manifest asks for it: keys that lead to its table
     arrange          the method by which all views are arranged on one page; empty: each view is a drawing
+    printed          of such a page: template (its path, seen from the root), texts and room, those that are given
     """
 
     root: str
@@ -36,6 +37,7 @@ class Job:
     memory_limit_mb: float = 4000.0
     rule: tuple[str | int, ...] = ()
     arrange: str = ""
+    printed: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def title(self) -> str:

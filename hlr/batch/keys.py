@@ -58,7 +58,7 @@ def key_of(job: Job, digests: Digests) -> str | None:
         "packages": _packages(job),
         "source": [job.source, source],
         "views": job.views,
-        "arrange": job.arrange,
+        "arrange": [job.arrange, job.printed],
         "formats": job.formats,
         "options": {name: value for name, value in job.options.items() if name != "threads"},
         "depends": [

@@ -11,6 +11,7 @@ from itertools import product
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from hlr.batch.arranged_page import filled_in, printed_of
 from hlr.batch.discover import files_named, models_under, named, takes_parameters, without
 from hlr.batch.job import Job
 from hlr.batch.manifest import Manifest, Rule
@@ -55,12 +56,15 @@ def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
         sources = _sources(manifest, rule, output, silent)
         if "parameters" in rule.own and not any(map(takes_parameters, sources)):
             raise manifest.error((*rule.where, "parameters"), "only scripts have parameters, and this names none")
+        printed = printed_of(manifest, rule)
         depends = _depends(manifest, rule)
+        if "template" in printed:
+            depends = tuple(dict.fromkeys((*depends, printed["template"])))
         stems = Counter(_stem(path) for path in set(sources))
         for path in sources:
             options = {**rule.options, **({"strict": True} if strict else {})}
             alone = stems[_stem(path)] == 1
-            jobs.extend(replace(job, depends=depends) for job in _jobs(manifest, rule, path, options, alone))
+            jobs.extend(replace(job, depends=depends) for job in _jobs(manifest, rule, path, options, alone, printed))
     _check_names(manifest, jobs)
     drawn = {os.path.join(job.root, job.source) for job in jobs}
     return Plan(manifest, output, tuple(jobs), tuple(path for path in dict.fromkeys(silent) if str(path) not in drawn))
@@ -114,8 +118,13 @@ def _depends(manifest: Manifest, rule: Rule) -> tuple[str, ...]:
     return tuple(dict.fromkeys(found))
 
 
-def _jobs(manifest: Manifest, rule: Rule, path: Path, options: Mapping[str, Any], alone: bool) -> Iterator[Job]:
-    """A job for each variant of a source. alone: no other source of the rule differs in its ending only."""
+def _jobs(
+    manifest: Manifest, rule: Rule, path: Path, options: Mapping[str, Any], alone: bool, printed: Mapping[str, Any]
+) -> Iterator[Job]:
+    """A job for each variant of a source.
+
+    alone: no other source of the rule differs in its ending only; printed: as of `printed_of`
+    """
     values = rule.values
     views = tuple(tuple(view) if isinstance(view, list) else view for view in _views(values["views"]))
     formats = tuple(dict.fromkeys(as_list(values["formats"])))
@@ -132,7 +141,8 @@ def _jobs(manifest: Manifest, rule: Rule, path: Path, options: Mapping[str, Any]
             for number, view in enumerate(base.drawings, 1)
         ]
         files = tuple(tuple(f"{name}.{format}" for format in formats) for name in names)
-        yield replace(base, files=files, options={**options, **more}, rule=rule.where)
+        on_page = filled_in(printed, _fields(source, base.drawings[0], 1, variant))
+        yield replace(base, files=files, options={**options, **more}, rule=rule.where, printed=on_page)
 
 
 def _views(value: Any) -> list[Any]:

@@ -40,6 +40,10 @@ def _is_none_or_texts(value: Any) -> bool:
     return value == [] or _is_texts(value)
 
 
+def _is_table_of_texts(value: Any) -> bool:
+    return isinstance(value, dict) and all(isinstance(text, str) for text in value.values())
+
+
 def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and is_finite(value)
 
@@ -54,6 +58,10 @@ def _is_view(value: Any) -> bool:
 
 def _is_views(value: Any) -> bool:
     return _is_text(value) or (isinstance(value, list) and bool(value) and all(map(_is_view, value)))
+
+
+def _is_rectangle(value: Any) -> bool:
+    return isinstance(value, list) and len(value) == 4 and all(map(_is_number, value))
 
 
 def _is_parameter(value: Any) -> bool:
@@ -84,6 +92,19 @@ KEYS = {
         f"{listed(PROJECTION_METHODS, 'or')}, or an empty text",
         lambda value: isinstance(value, str) and value in ("", *PROJECTION_METHODS),
         "all views of a source on one page, by first-angle or third-angle projection; empty: a page for each view",
+    ),
+    "template": Key(
+        "",
+        "the name of an SVG file",
+        lambda value: value == "" or _is_text(value),
+        "what is printed under arranged views",
+    ),
+    "texts": Key({}, "a table of texts", _is_table_of_texts, "texts for the fields of the template"),
+    "room": Key(
+        [],
+        "four numbers",
+        lambda value: value == [] or _is_rectangle(value),
+        "where arranged views may lie on the page: x0, y0, x1, y1 in mm",
     ),
     "formats": Key(["svg"], _TEXTS, _is_texts, "the formats of each view"),
     "name": Key(

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 from hlr.errors import OptionError
 from hlr.tables.projection_methods import Cell, ProjectionMethod
-from hlr.tables.sheets import Paper, standard_scale
+from hlr.tables.sheets import MARGIN, Paper, standard_scale
 
 LEAST_GAP, MOST_GAP = 10.0, 40.0
 """Millimetres between views: at least, and at most where the page has more room than they need."""
@@ -26,18 +26,34 @@ Size = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
+class Room:
+    """A page, and the rectangle on it in which views may lie: x, y its lower left corner, millimetres."""
+
+    paper: Paper
+    x: float
+    y: float
+    width: float
+    height: float
+
+
+def inside_margins(paper: Paper) -> Room:
+    """All of a page but its margins."""
+    return Room(paper, MARGIN, MARGIN, *paper.room)
+
+
+@dataclass(frozen=True, slots=True)
 class Arrangement:
-    """A scale (paper : model), the page, and the cell of each view."""
+    """A scale (paper : model), the room on a page, and the cell of each view."""
 
     scale: float
-    paper: Paper
+    room: Room
     cells: tuple[Cell, ...]
 
     def places(self, sizes: Sequence[Size]) -> list[tuple[float, float]]:
         """The middle of each view's cell, millimetres from the page's lower left corner; sizes: at 1:1."""
         columns, rows = _spans(sizes, self.cells)
-        x = _middles(columns, self.scale, self.paper.width, self.paper.room[0])
-        y = _middles(rows, self.scale, self.paper.height, self.paper.room[1])
+        x = _middles(columns, self.scale, self.room.x, self.room.width)
+        y = _middles(rows, self.scale, self.room.y, self.room.height)
         return [(x[column], y[row]) for column, row in self.cells]
 
     def needs(self, sizes: Sequence[Size]) -> Size:
@@ -49,32 +65,31 @@ class Arrangement:
 
 
 def arranged(
-    names: Sequence[str], sizes: Sequence[Size], method: ProjectionMethod, papers: Sequence[Paper], scale: float | None
+    names: Sequence[str], sizes: Sequence[Size], method: ProjectionMethod, rooms: Sequence[Room], scale: float | None
 ) -> Arrangement:
-    """The arrangement of views that allows the largest scale; where several do, the first way that the paper may lie.
+    """The arrangement of views that allows the largest scale; where several rooms do, that in the first of them.
 
     names: of the views; sizes: width and height of each at 1:1, millimetres; scale: None: the largest standard one.
 
     Raises OptionError for a view that is given twice, for too many views, and for a page without room for them.
     """
     best: tuple[float, Arrangement] | None = None
-    for paper in papers:
-        cells = _cells(names, sizes, method, paper)
-        most = _most(sizes, cells, paper)
+    for room in rooms:
+        cells = _cells(names, sizes, method, room)
+        most = _most(sizes, cells, room)
         chosen = scale if scale is not None else standard_scale(most) if most > 0.0 else 0.0
-        # With a scale that is given, the way that has more room to spare.
+        # With a scale that is given, the one that has more to spare.
         rank = most if scale is not None else chosen
         if chosen > 0.0 and (best is None or rank > best[0]):
-            best = rank, Arrangement(chosen, paper, cells)
+            best = rank, Arrangement(chosen, room, cells)
     if best is None:
-        raise OptionError(
-            f"a page of {papers[0].width:g} x {papers[0].height:g} mm has no room for {len(names)} views with "
-            f"{LEAST_GAP:g} mm between them: give a larger page, or fewer views"
-        )
+        page = f"a page of {rooms[0].paper.width:g} x {rooms[0].paper.height:g} mm"
+        apart = f"{len(names)} views with {LEAST_GAP:g} mm between them"
+        raise OptionError(f"{page} has no room for {apart}: give a larger page, or fewer views")
     return best[1]
 
 
-def _cells(names: Sequence[str], sizes: Sequence[Size], method: ProjectionMethod, paper: Paper) -> tuple[Cell, ...]:
+def _cells(names: Sequence[str], sizes: Sequence[Size], method: ProjectionMethod, room: Room) -> tuple[Cell, ...]:
     """The cell of each view: its own, or the free one that leaves the largest scale."""
     found: dict[int, Cell] = {}
     for i, name in enumerate(names):
@@ -91,18 +106,18 @@ def _cells(names: Sequence[str], sizes: Sequence[Size], method: ProjectionMethod
         given = list(found)
 
         def scale(cell: Cell, i: int = i, given: Sequence[int] = given) -> float:
-            most = _most([sizes[k] for k in (*given, i)], [*(found[k] for k in given), cell], paper)
+            most = _most([sizes[k] for k in (*given, i)], [*(found[k] for k in given), cell], room)
             return standard_scale(most) if most > 0.0 else 0.0
 
         found[i] = max(free, key=scale)
     return tuple(found[i] for i in range(len(names)))
 
 
-def _most(sizes: Sequence[Size], cells: Sequence[Cell], paper: Paper) -> float:
+def _most(sizes: Sequence[Size], cells: Sequence[Cell], room: Room) -> float:
     """The largest scale at which the views fit; 0 where the gaps alone are too wide."""
     scales = []
-    for span, room in zip(_spans(sizes, cells), paper.room, strict=True):
-        left, total = room + SLACK - LEAST_GAP * (len(span) - 1), sum(span.values())
+    for span, side in zip(_spans(sizes, cells), (room.width, room.height), strict=True):
+        left, total = side + SLACK - LEAST_GAP * (len(span) - 1), sum(span.values())
         if left <= SLACK:
             return 0.0
         if total > 0.0:
@@ -120,11 +135,11 @@ def _spans(sizes: Sequence[Size], cells: Sequence[Cell]) -> tuple[dict[int, floa
     return dict(sorted(columns.items())), dict(sorted(rows.items()))
 
 
-def _middles(span: dict[int, float], scale: float, side: float, room: float) -> dict[int, float]:
-    """Where the middle of each column or row lies, with even gaps, all of them in the middle of the page."""
+def _middles(span: dict[int, float], scale: float, begin: float, side: float) -> dict[int, float]:
+    """Where the middle of each column or row lies, with even gaps, all of them in the middle of a side of the room."""
     total = scale * sum(span.values())
-    gap = min(max((room - total) / (len(span) + 1), LEAST_GAP), MOST_GAP)
-    at = 0.5 * (side - total - gap * (len(span) - 1))
+    gap = min(max((side - total) / (len(span) + 1), LEAST_GAP), MOST_GAP)
+    at = begin + 0.5 * (side - total - gap * (len(span) - 1))
     found = {}
     for number, size in span.items():
         found[number] = at + 0.5 * scale * size

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -17,8 +17,10 @@ from hlr.drawing.notes import Note
 from hlr.drawing.page import Page
 from hlr.drawing.pens import usual_pens_of
 from hlr.drawing.projection_symbol import projection_symbol
+from hlr.drawing.scale import ratio
 from hlr.drawing.sheet import Sheet, SheetView
-from hlr.image.arrangement import Arrangement, Size, arranged
+from hlr.errors import OptionError
+from hlr.image.arrangement import SLACK, Arrangement, Room, Size, arranged, inside_margins
 from hlr.image.paper import misfit
 from hlr.linework.legible import legible
 from hlr.pipeline.draw import draw_views
@@ -29,9 +31,10 @@ from hlr.request.effect import Planner
 from hlr.request.options import Options, View
 from hlr.request.style import Style
 from hlr.request.style_file import style_of
+from hlr.source.page_template import PageTemplate, Rectangle
 from hlr.source.selection import open_selected
 from hlr.tables.projection_methods import ProjectionMethod
-from hlr.tables.sheets import USUAL, papers
+from hlr.tables.sheets import USUAL, Paper, papers
 
 OF_ONE_VIEW = {"page-too-small", "paper-size"}
 """Notes that are about the page of a single view."""
@@ -50,8 +53,59 @@ class _Placed:
     shift: Floats
 
 
+@dataclass(frozen=True, slots=True)
+class Printed:
+    """What is on a page besides its views. texts: for the fields of the template; room: instead of what that says."""
+
+    template: PageTemplate | None = None
+    texts: Mapping[str, str] = field(default_factory=dict)
+    room: Rectangle | None = None
+
+    def rooms(self, options: Options) -> list[Room]:
+        """Where views may lie."""
+        template = self.template
+        if template is None:
+            sheets = list(papers(USUAL if options.page is None else options.page))
+        else:
+            sheets = [Paper(template.path.stem, template.width, template.height)]
+        if self.room is not None:
+            return _on_any(sheets, self.room)
+        if template is None or not template.rooms:
+            return [inside_margins(sheet) for sheet in sheets]
+        return [_room(sheet, free) for sheet in sheets for free in template.rooms]
+
+    def svg(self, method: ProjectionMethod, drawing: Drawing) -> str:
+        """What is printed under the views: the template; without one the symbol of the method."""
+        if self.template is not None:
+            return self.template.filled(self.texts, ratio(drawing.scale))
+        page = drawing.area
+        return projection_symbol(method.name, page.width, page.height, usual_pens_of(drawing))
+
+
+def _on_any(sheets: Sequence[Paper], rectangle: Rectangle) -> list[Room]:
+    """A room on those sheets that it lies on. Raises OptionError where it leads out of all."""
+    x0, y0, x1, y1 = rectangle
+    found = [
+        _room(sheet, rectangle) for sheet in sheets if x0 >= 0.0 <= y0 and x1 <= sheet.width and y1 <= sheet.height
+    ]
+    if not found:
+        page = f"a page of {sheets[0].width:g} x {sheets[0].height:g} mm"
+        raise OptionError(f"the room {x0:g},{y0:g},{x1:g},{y1:g} leads out of {page}: give two corners on the page")
+    return found
+
+
+def _room(paper: Paper, rectangle: Rectangle) -> Room:
+    x0, y0, x1, y1 = rectangle
+    return Room(paper, x0, y0, x1 - x0, y1 - y0)
+
+
 def draw_on_one_page(
-    source: Any, views: Sequence[View], method: ProjectionMethod, options: Options, progress: Progress | None = None
+    source: Any,
+    views: Sequence[View],
+    method: ProjectionMethod,
+    options: Options,
+    printed: Printed,
+    progress: Progress | None = None,
 ) -> Drawing:
     """The views of a source on one page. options: checked, without any that are for a single view.
 
@@ -59,22 +113,30 @@ def draw_on_one_page(
     """
     source = open_selected(source, options)
     views = checked_views(views, options)
-    alone = replace(options, details=True, strict=False)
+    alone = replace(options, details=True, strict=False, same_scale=False)
     session = Session(source, views, alone)
     names = [camera.name for camera in session.cameras]
     sizes: list[Size] = [(w * at.unit, h * at.unit) for at in session.placements for w, h in [at.size]]
-    pages = papers(USUAL if options.page is None else options.page)
+    rooms = printed.rooms(options)
     scale = None if options.scale is None else float(options.scale)
-    found = arranged(names, sizes, method, pages, scale)
+    found = arranged(names, sizes, method, rooms, scale)
     for _ in range(MOST_DRAWINGS):
-        asked = replace(alone, scale=found.scale, page=(found.paper.width, found.paper.height))
-        drawings = draw_views(source, views, asked, progress)
+        paper = found.room.paper
+        drawings = draw_views(
+            source, views, replace(alone, scale=found.scale, page=(paper.width, paper.height)), progress
+        )
         sizes = [(d.bounds.width / found.scale, d.bounds.height / found.scale) for d in drawings]
-        better = arranged(names, sizes, method, pages, scale)
+        better = arranged(names, sizes, method, rooms, scale)
         if better.scale <= found.scale:
             break
         found = better
     drawing = _together(drawings, names, sizes, found, method, options)
+    if printed.template is not None and printed.room is None and not printed.template.rooms:
+        name = printed.template.path.name
+        text = f"{name} does not say where views may lie: room (--room) keeps them off its title block."
+        drawing = replace(drawing, notes=(*drawing.notes, Note("room-unknown", text)))
+    on_page = () if drawing.sheet is None else drawing.sheet.views
+    drawing = replace(drawing, sheet=Sheet(on_page, printed.svg(method, drawing)))
     if options.strict:
         refuse_warnings(drawing.notes)
     return drawing
@@ -98,11 +160,11 @@ def _together(
         lines += [moved(line, stay, each.shift, first) for line in each.drawing.lines]
         parts += [replace(part, name=f"{each.name}/{part.name}") for part in each.drawing.parts]
         counters.update(each.drawing.counters)
-    paper, style = found.paper, _on_page(style_of(options.style))
+    paper, style = found.room.paper, _on_page(style_of(options.style))
     accuracy = max(drawing.accuracy.used for drawing in drawings)
     room = (paper.width, paper.height)
     shown = legible(lines, found.scale, accuracy, style, room, options, Planner(drawing_effects(), options))
-    whole = Drawing(
+    return Drawing(
         source=drawings[0].source,
         view=DrawnView(method.name, "orthographic", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
         scale=found.scale,
@@ -116,12 +178,11 @@ def _together(
         counters=dict(counters),
         timings=drawings[-1].timings,
         page=Page(paper.name, paper.width, paper.height, 0.0, 0.0),
+        sheet=Sheet(tuple(_shown(each, found.scale) for each in placed)),
         style=style,
         group=shown.group,
         reading=drawings[0].reading,
     )
-    symbol = projection_symbol(method.name, paper.width, paper.height, usual_pens_of(whole))
-    return replace(whole, sheet=Sheet(tuple(_shown(each, found.scale) for each in placed), symbol))
 
 
 def _placed(
@@ -148,8 +209,15 @@ def _placed(
 
 def _notes(drawings: Sequence[Drawing], sizes: Sequence[Size], found: Arrangement) -> list[Note]:
     notes = [note for drawing in drawings for note in drawing.notes if note.code not in OF_ONE_VIEW]
-    too_large = misfit(found.needs(sizes), found.scale, found.paper)
-    return notes if too_large is None else [*notes, too_large]
+    needs, room = found.needs(sizes), found.room
+    if room == inside_margins(room.paper):
+        too_large = misfit(needs, found.scale, room.paper)
+        return notes if too_large is None else [*notes, too_large]
+    if needs[0] > room.width + SLACK or needs[1] > room.height + SLACK:
+        size, free = (f"{width:.4g} x {height:.4g} mm" for width, height in (needs, (room.width, room.height)))
+        text = f"the views, {size} at {ratio(found.scale)}, are too large for their room of {free}: give no scale"
+        notes.append(Note("page-too-small", text))
+    return notes
 
 
 def _shown(placed: _Placed, scale: float) -> SheetView:

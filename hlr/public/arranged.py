@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 from hlr.common.keywords import expect_record
+from hlr.common.numbers import is_finite
 from hlr.common.threads import at_most
 from hlr.drawing.drawing import Drawing
 from hlr.errors import OptionError
-from hlr.pipeline.arranged import draw_on_one_page
+from hlr.pipeline.arranged import Printed, draw_on_one_page
 from hlr.request.check import checked
 from hlr.request.options import Options, View
+from hlr.source.page_template import Rectangle, read_page_template
 from hlr.tables.entry import listed
 from hlr.tables.projection_methods import PROJECTION_METHODS
 
@@ -20,6 +24,9 @@ if TYPE_CHECKING:
 
 OF_ONE_VIEW = ("fit", "window", "up", "perspective", "fill", "report", "within")
 """Options that say something of a single view."""
+
+_CORNERS = 4
+"""Coordinates of the two corners of a rectangle."""
 
 Method = Literal["first-angle", "third-angle"]
 
@@ -30,6 +37,10 @@ def draw_arranged(
     views: Sequence[View] | None = None,
     options: Options | None = None,
     progress: Progress | None = None,
+    *,
+    template: str | os.PathLike[str] | None = None,
+    texts: Mapping[str, str] | None = None,
+    room: Rectangle | None = None,
 ) -> Drawing:
     """Several views on one page, at one scale and in line with one another.
 
@@ -40,6 +51,11 @@ def draw_arranged(
     options   as of `hlr.draw`, without fit, window, up, perspective, fill, report and within; None: the defaults. The
               scale is the largest standard one at which all views fit the page, unless one is given
     progress  as of `hlr.draw`
+    template  an SVG with a frame and a title block, such as those of FreeCAD's TechDraw; it says how large the page is,
+              and is printed under the views. None: the symbol of the method in the lower right corner
+    texts     for the fields of the template, by their keys. A field for the scale is filled in
+    room      (x0, y0, x1, y1), millimetres from the lower left corner of the page: where views may lie. None: what the
+              template says (`hlr.source.page_template`), or all but margins of 10 mm
 
     The parts of a view are called by it: front/bolt.
 
@@ -59,9 +75,39 @@ def draw_arranged(
     check_arranged(options)
     if views is not None and not views:
         raise OptionError("a page needs a view: give one, or None for the usual ones")
+    printed = _printed(template, texts or {}, room, options)
     with at_most(options.threads):
         chosen = cast("Sequence[View]", row.usual) if views is None else views
-        return draw_on_one_page(source, chosen, row, options, progress)
+        return draw_on_one_page(source, chosen, row, options, printed, progress)
+
+
+def _printed(
+    template: str | os.PathLike[str] | None, texts: Mapping[str, str], room: Rectangle | None, options: Options
+) -> Printed:
+    """What is on the page besides its views, checked."""
+    if room is not None:
+        check_room(room)
+    if template is None:
+        if texts:
+            raise OptionError("texts are for the fields of a template: give one, or leave them out")
+        return Printed(room=room)
+    if options.page is not None:
+        raise OptionError("a template has a size of its own: leave out page, or template")
+    read = read_page_template(Path(template))
+    texts = {str(key): str(text) for key, text in texts.items()}
+    read.check(texts)
+    return Printed(read, texts, room)
+
+
+def check_room(room: Any) -> None:
+    """Raise OptionError where this is no rectangle on paper."""
+    numbers = list(room) if isinstance(room, Sequence) and not isinstance(room, str) else []
+    if (
+        len(numbers) != _CORNERS
+        or not all(map(is_finite, numbers))
+        or not (numbers[0] < numbers[2] and numbers[1] < numbers[3])
+    ):
+        raise OptionError(f"room needs two corners in millimetres, such as 20,60,287,200, not {room!r}")
 
 
 def check_arranged(options: Options) -> None:

@@ -61,3 +61,48 @@ def test_a_source_may_have_pages_for_each_view_again(tmp_path):
 def test_a_method_that_does_not_exist(tmp_path):
     with pytest.raises(OptionError, match="first-angle or third-angle, or an empty text is needed, not 'second'"):
         jobs(tmp_path, arrange="second")
+
+
+TEMPLATE = """<svg xmlns="http://www.w3.org/2000/svg" xmlns:freecad="urn:freecad" width="297mm" height="210mm">
+<!-- Working space 10 10 287 200 -->
+<text freecad:editable="TITLE"><tspan>title</tspan></text><text freecad:editable="Scale"><tspan>1</tspan></text></svg>
+"""
+
+
+def test_a_template_with_the_name_of_each_source_in_its_title(tmp_path):
+    (tmp_path / "sheet.svg").write_text(TEMPLATE)
+    keys = {
+        "arrange": "third-angle",
+        "template": "sheet.svg",
+        "texts": {"TITLE": "{stem} {what}"},
+        "room": [20, 20, 120, 90],
+    }
+    _, (job,) = jobs(tmp_path, **keys)
+    assert job.depends == ("sheet.svg",)
+    outcome = carry_out(job)
+    ((svg,),) = outcome.contents
+    assert b"part {what}" in svg
+    assert b">1:1<" in svg
+    before = key_of(job, Digests())
+    (tmp_path / "sheet.svg").write_text(TEMPLATE.replace("title", "a title"))
+    assert key_of(job, Digests()) != before
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"template": "sheet.svg"}, "it is for pages with several views: give arrange as well"),
+        ({"arrange": "third-angle", "template": "none.svg"}, "none.svg does not exist"),
+        ({"arrange": "third-angle", "texts": {"TITLE": "x"}}, "texts are for the fields of a template"),
+        (
+            {"arrange": "third-angle", "template": "sheet.svg", "texts": {"NAME": "x"}},
+            "sheet.svg has no field 'NAME': its fields are TITLE and Scale",
+        ),
+        ({"arrange": "third-angle", "template": "sheet.svg", "page": "A3"}, "leave one of them out"),
+        ({"arrange": "third-angle", "room": [1, 2, 3]}, "four numbers is needed"),
+    ],
+)
+def test_what_a_template_cannot_have_is_refused(tmp_path, keys, words):
+    (tmp_path / "sheet.svg").write_text(TEMPLATE)
+    with pytest.raises(OptionError, match=words):
+        jobs(tmp_path, **keys)

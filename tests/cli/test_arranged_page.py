@@ -28,6 +28,32 @@ def test_views_that_are_asked_for(hlr_real, tmp_path):
     assert svg.count("<view ") == 2
 
 
+TEMPLATE = """<svg xmlns="http://www.w3.org/2000/svg" xmlns:freecad="urn:freecad" width="420mm" height="297mm">
+<!-- Working space 10 10 410 287 -->
+<text freecad:editable="TITLE"><tspan>title</tspan></text></svg>
+"""
+
+
+@pytest.mark.slow
+def test_a_template_with_a_title(hlr_real, tmp_path):
+    (tmp_path / "sheet.svg").write_text(TEMPLATE)
+    page = (
+        "--arrange",
+        "third-angle",
+        "--template",
+        "sheet.svg",
+        "--text",
+        "TITLE=Two = three",
+        "--room",
+        "20,20,400,200",
+    )
+    done = hlr_real("draw", STEP, *page, "-o", "a.svg", "-q")
+    assert (done.code, done.err) == (0, "")
+    svg = (tmp_path / "a.svg").read_text("utf-8")
+    assert 'width="420mm"' in svg
+    assert ">Two = three<" in svg
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -36,6 +62,14 @@ def test_views_that_are_asked_for(hlr_real, tmp_path):
         ((STEP, "--arrange", "first-angle", "--window", "0,0,9,9"), "leave out the option window"),
         ((HOUSING, "--arrange", "first-angle", "--all-pages"), "leave out --arrange"),
         ((HOUSING, "--arrange", "first-angle", "--page", "Page"), "leave out --arrange"),
+        ((STEP, "--arrange", "first-angle", "--template", "none.svg"), "none.svg does not exist"),
+        (
+            (STEP, "--arrange", "first-angle", "--text", "TITLE"),
+            "'TITLE' is not a field and a text such as TITLE=Bracket",
+        ),
+        ((STEP, "--arrange", "first-angle", "--text", "A=1", "--text", "A=2"), "--text gives A twice"),
+        ((STEP, "--template", "a.svg"), "--template is for --arrange"),
+        ((STEP, "--room", "0,0,9,9"), "--room is for --arrange"),
         ((STEP, "--arrange", "first-angle", "-o", "a.json"), "cannot be written as JSON"),
     ],
 )

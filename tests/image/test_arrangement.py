@@ -7,7 +7,7 @@ from itertools import combinations
 import pytest
 
 from hlr.errors import OptionError
-from hlr.image.arrangement import LEAST_GAP, arranged
+from hlr.image.arrangement import LEAST_GAP, Room, arranged, inside_margins
 from hlr.tables.projection_methods import PROJECTION_METHODS
 from hlr.tables.sheets import MARGIN, papers
 
@@ -16,9 +16,13 @@ BLOCK = {"front": (60, 30), "back": (60, 30), "top": (60, 20), "bottom": (60, 20
 """Width and height of the views of a block of 60 x 20 x 30 mm, nearly."""
 
 
+def rooms_of(sheet):
+    return [inside_margins(paper) for paper in papers(sheet)]
+
+
 def page(names, method="third-angle", sheet="A4", scale=None):
     sizes = [BLOCK[name] for name in names]
-    found = arranged(names, sizes, PROJECTION_METHODS[method], papers(sheet), scale)
+    found = arranged(names, sizes, PROJECTION_METHODS[method], rooms_of(sheet), scale)
     return found, dict(zip(names, found.places(sizes), strict=True))
 
 
@@ -53,8 +57,8 @@ def test_views_lie_apart_inside_the_margins(method, sheet, count):
     boxes = [box(name, at[name], found.scale) for name in names]
     for x0, y0, x1, y1 in boxes:
         assert min(x0, y0) >= MARGIN - 0.1
-        assert x1 <= found.paper.width - MARGIN + 0.1
-        assert y1 <= found.paper.height - MARGIN + 0.1
+        assert x1 <= found.room.paper.width - MARGIN + 0.1
+        assert y1 <= found.room.paper.height - MARGIN + 0.1
     for one, other in combinations(boxes, 2):
         apart = [max(one[k] - other[k + 2], other[k] - one[k + 2]) for k in (0, 1)]
         assert max(apart) >= LEAST_GAP - 1e-9
@@ -77,10 +81,24 @@ def test_a_pictorial_view_takes_the_free_cell_that_leaves_the_largest_scale():
 
 
 def test_a_sheet_lies_the_way_that_allows_the_larger_scale():
-    assert page(["front", "top"])[0].paper.name == "A4"
-    assert page(["front", "back"])[0].paper.width == 297.0
-    tall = arranged(["front"], [(10, 100)], PROJECTION_METHODS["first-angle"], papers("A4"), None)
-    assert (tall.scale, tall.paper.height) == (2.0, 297.0)
+    assert page(["front", "top"])[0].room.paper.name == "A4"
+    assert page(["front", "back"])[0].room.paper.width == 297.0
+    tall = arranged(["front"], [(10, 100)], PROJECTION_METHODS["first-angle"], rooms_of("A4"), None)
+    assert (tall.scale, tall.room.paper.height) == (2.0, 297.0)
+
+
+def test_views_lie_inside_the_room_that_allows_the_larger_scale():
+    (paper, _) = papers("A4")
+    above, beside = Room(paper, 20, 60, 260, 140), Room(paper, 20, 10, 80, 190)
+    sizes = [BLOCK["front"], BLOCK["top"]]
+    for order in ((above, beside), (beside, above)):
+        wide = arranged(["front", "top"], sizes, PROJECTION_METHODS["third-angle"], order, None)
+        assert wide.room == above
+        for (x, y), (width, height) in zip(wide.places(sizes), sizes, strict=True):
+            assert 20 <= x - wide.scale * width / 2 < x + wide.scale * width / 2 <= 280
+            assert 60 <= y - wide.scale * height / 2 < y + wide.scale * height / 2 <= 200
+    tall = arranged(["left"], [(10, 90)], PROJECTION_METHODS["third-angle"], [above, beside], None)
+    assert tall.room == beside
 
 
 @pytest.mark.parametrize(

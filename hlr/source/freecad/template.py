@@ -42,7 +42,7 @@ def safe_svg(data: bytes, text_of: Callable[[int, str], str | None], path: Path,
     root = xml_tree(data, path, title, "FreeCAD")
     if root.tag != f"{SVG}svg":
         raise DamagedError(f"{title} is no SVG")
-    fields = [(field, key) for field in root.iter(f"{SVG}text") if (key := _editable(field))]
+    fields = [(field, key) for field in root.iter(f"{SVG}text") if (key := editable(field))]
     for number, (field, key) in enumerate(fields):
         if (text := text_of(number, key)) is not None:
             _fill(field, text)
@@ -52,7 +52,7 @@ def safe_svg(data: bytes, text_of: Callable[[int, str], str | None], path: Path,
     return out
 
 
-def _editable(field: Element) -> str:
+def editable(field: Element) -> str:
     """The key of a field; empty where it is none."""
     return next((value for name, value in field.items() if _local(name) == "editable"), "")
 
