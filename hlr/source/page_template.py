@@ -30,8 +30,8 @@ BESIDE = 5.0
 UNITS = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72.0, "pc": 25.4 / 6.0, "px": 25.4 / 96.0, "": 1.0}
 """Millimetres of each unit of length in an SVG; FreeCAD takes lengths without one for millimetres."""
 
-SCALES = {"scale", "fc-sc", "масштаб"}
-"""Keys of fields, in small letters, that hold the scale of the views."""
+SCALES = {"scale", "sc", "масштаб"}
+"""Keys of fields, in small letters and without FreeCAD's FC-, that hold the scale of the views."""
 
 Rectangle = tuple[float, float, float, float]
 """x0, y0, x1, y1, millimetres from the lower left corner of a page."""
@@ -62,7 +62,7 @@ class PageTemplate:
 
     def filled(self, texts: Mapping[str, str], scale: str) -> str:
         """The template as an SVG element with texts in its fields; the scale goes into a field of that name."""
-        scales = {key: scale for key in self.fields if key.lower() in SCALES}
+        scales = {key: scale for key in self.fields if key.lower().removeprefix("fc-") in SCALES}
         return filled_template(self.data, {**scales, **texts}, (self.width, self.height), self.path)
 
 

@@ -74,6 +74,12 @@ def test_the_scale_and_texts_are_filled_in(template):
     assert texts_of(given.to_svg())[-2:] == ["a title", "as shown"]
 
 
+@pytest.mark.parametrize("key", ["SCALE", "Scale", "FC-Scale", "FC-SC"])
+def test_fields_for_the_scale(template, key):
+    svg = hlr.draw_arranged(BOX, template=template(**{"FC-SC": key})).to_svg()
+    assert texts_of(svg)[-1] == "2:1"
+
+
 def test_the_symbol_of_the_method_is_left_to_the_template(template):
     assert "<circle" not in hlr.draw_arranged(BOX, template=template()).to_svg()
 
