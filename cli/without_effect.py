@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import click
 from click.core import ParameterSource
@@ -18,6 +18,7 @@ from click.core import ParameterSource
 from hlr.errors import OptionError
 from hlr.request.concerns import OF_FORMATS, OF_SOURCES, OfSources
 from hlr.tables.entry import listed
+from hlr.tables.projection_methods import PROJECTION_METHODS
 from hlr.tables.readers import of_ending
 
 from .exits import remark
@@ -120,7 +121,7 @@ def _for_background(asked: Asked) -> str:
 
 def _for_hidden_lines(asked: Asked) -> str:
     values = asked.values
-    if values["all_pages"] or values["arrange"] or values["hidden"]:
+    if values["all_pages"] or values["hidden"]:
         return ""
     if values["hidden"] is None:
         from hlr.request.directions import directed, pictorial
@@ -129,7 +130,8 @@ def _for_hidden_lines(asked: Asked) -> str:
 
         if names_a_page(values["source"], values["page"]):
             return ""
-        views: tuple[View, ...] = values["views"] or ("iso",)
+        method = PROJECTION_METHODS.get(values["arrange"] or "")
+        views: tuple[View, ...] = values["views"] or (cast("tuple[View, ...]", method.usual) if method else ("iso",))
         in_perspective = values["perspective"] or any(values[name] is not None for name in ("eye", "target", "fov"))
         if not in_perspective and not all(pictorial(directed(view)[1]) for view in views):
             return ""

@@ -90,7 +90,7 @@ def _facts(drawing: Drawing, writing: float) -> dict[str, Any]:
         "width_mm": bounds.x1 - bounds.x0,
         "height_mm": bounds.y1 - bounds.y0,
         "lines": {"visible": visible, "hidden": len(drawing.lines) - visible},
-        "parts": len(drawing.parts),
+        "parts": len(drawing.parts) // (len(drawing.sheet.views) if drawing.sheet is not None else 1),
         "accuracy": accuracies(drawing),
         "notes": [note.as_dict() | {"warning": note.is_warning} for note in drawing.notes],
         "seconds": {stage: round(s, 4) for stage, s in ({**drawing.timings} | {"write": writing}).items()},

@@ -46,13 +46,19 @@ def check(values: Mapping[str, Any], views: tuple[Any, ...], root: str, arrange:
 
     arrange: the method by which the views are arranged on one page; empty: they are not.
     """
+    from hlr.image.arrangement import check_views
+    from hlr.image.method_cells import own_cells
     from hlr.public.arranged import check_arranged
     from hlr.request.check import checked, checked_views
+    from hlr.request.directions import directed
+    from hlr.tables.projection_methods import PROJECTION_METHODS
 
     options = checked(options_of(values, root))
     checked_views(views, options)
     if arrange:
+        method = PROJECTION_METHODS[arrange]
         check_arranged(options)
+        check_views([directed(view)[0] for view in views], own_cells(views, method), method)
 
 
 def wrong_one(values: Mapping[str, Any], root: str, arrange: str = "") -> str | None:

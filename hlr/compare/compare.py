@@ -88,8 +88,9 @@ def compare(
     if register == "auto":
         register = "similarity" if before.about.foreign or after.about.foreign else "off"
     if before.about.views or after.about.views:
-        findings, after, views = by_view(before, after, tolerance_mm, register != "off")
-        return Comparison.of(before, after, findings, tolerance_mm, views=views)
+        moving = register != "off" or scales is not None
+        findings, after, views = by_view(before, after, tolerance_mm, moving)
+        return Comparison.of(before, after, findings, tolerance_mm, views=views, scales=scales)
     motion = None if register == "off" else _motion(before, after, tolerance_mm, register)
     if motion is not None and motion.scale > _ENLARGED:  # its chords would be seen
         pieces = after.sketch.pieces(tolerance_mm / motion.scale, after.title)

@@ -108,7 +108,7 @@ def pens_of(drawing: Drawing) -> list[PenSet]:
     usual = [rule for rule in style.lines if rule.parts is None]
     alike: dict[tuple[LineRule, ...], list[int]] = {}
     for index, part in enumerate(drawing.parts):
-        own = tuple(rule for rule in special if matches(part.name, str(rule.parts)))
+        own = tuple(rule for rule in special if matches(_called(part, drawing), str(rule.parts)))
         color = part_color(part) if style.part_colors == "lines" else None
         if color is not None:
             # In place of the colour of all lines; what is said of hidden lines, or of a class, holds all the same.
@@ -119,6 +119,12 @@ def pens_of(drawing: Drawing) -> list[PenSet]:
         rules = sorted((*usual, *own), key=lambda rule: rule.weight)
         sets.append(PenSet(tuple(parts), tuple(rules), wide, narrow))
     return sets
+
+
+def _called(part: DrawnPart, drawing: Drawing) -> str:
+    """The name of a part in its model: on a page of arranged views it is called by its view as well, front/bolt."""
+    arranged = drawing.sheet is not None and drawing.sheet.method
+    return part.name.partition("/")[2] if arranged else part.name
 
 
 def by_part(sets: Sequence[PenSet]) -> dict[int, PenSet]:

@@ -31,9 +31,12 @@ class Sheet:
     """What is on a page.
 
     views     in the order of the page
+    method    by which the views are arranged, each of which shows the same parts: first-angle, third-angle. Empty: each
+              view shows what it likes
     template  what is printed under them, and texts beside them, as SVG elements in millimetres from the page's upper
               left corner
     """
 
     views: tuple[SheetView, ...]
     template: str = ""
+    method: str = ""

@@ -9,8 +9,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import permutations
 
 from hlr.errors import OptionError
 from hlr.tables.projection_methods import Cell, ProjectionMethod
@@ -21,6 +22,9 @@ LEAST_GAP, MOST_GAP = 10.0, 40.0
 
 SLACK = 0.1
 """Millimetres by which the views may together be larger than the room: they are drawn within an accuracy."""
+
+TRIED = 2
+"""Views of which all places are tried; each further one takes the best that is left."""
 
 Size = tuple[float, float]
 
@@ -64,53 +68,70 @@ class Arrangement:
         return width, height
 
 
+def check_views(names: Sequence[str], own: Sequence[Cell | None], method: ProjectionMethod) -> None:
+    """Raise OptionError for a view that is given twice, and for too many views.
+
+    names: of the views; own: the cell that the method has for each, None for those that lie in any free one
+    """
+    twice = next((name for name in names if names.count(name) > 1), None)
+    taken = [cell for cell in own if cell is not None]
+    if twice is None:
+        twice = next((name for name, cell in zip(names, own, strict=True) if cell and taken.count(cell) > 1), None)
+    if twice is not None:
+        raise OptionError(f"the view {twice} is given twice: a page shows it once")
+    if own.count(None) > len([cell for cell in method.free if cell not in taken]):
+        raise OptionError(f"{len(names)} views are too many for one page: give fewer")
+
+
 def arranged(
-    names: Sequence[str], sizes: Sequence[Size], method: ProjectionMethod, rooms: Sequence[Room], scale: float | None
+    own: Sequence[Cell | None],
+    sizes: Sequence[Size],
+    method: ProjectionMethod,
+    rooms: Sequence[Room],
+    scale: float | None,
 ) -> Arrangement:
     """The arrangement of views that allows the largest scale; where several rooms do, that in the first of them.
 
-    names: of the views; sizes: width and height of each at 1:1, millimetres; scale: None: the largest standard one.
+    own: the cell that the method has for each view, None for those that lie in any free one; sizes: width and height of
+    each at 1:1, millimetres; scale: None: the largest standard one.
 
-    Raises OptionError for a view that is given twice, for too many views, and for a page without room for them.
+    Raises OptionError for a page without room for the views.
     """
     best: tuple[float, Arrangement] | None = None
     for room in rooms:
-        cells = _cells(names, sizes, method, room)
-        most = _most(sizes, cells, room)
-        chosen = scale if scale is not None else standard_scale(most) if most > 0.0 else 0.0
-        # With a scale that is given, the one that has more to spare.
-        rank = most if scale is not None else chosen
-        if chosen > 0.0 and (best is None or rank > best[0]):
-            best = rank, Arrangement(chosen, room, cells)
+        for cells in _choices(own, sizes, method, room):
+            most = _most(sizes, cells, room)
+            chosen = scale if scale is not None else standard_scale(most) if most > 0.0 else 0.0
+            # With a scale that is given, the one that has more to spare.
+            rank = most if scale is not None else chosen
+            if chosen > 0.0 and (best is None or rank > best[0]):
+                best = rank, Arrangement(chosen, room, cells)
     if best is None:
         page = f"a page of {rooms[0].paper.width:g} x {rooms[0].paper.height:g} mm"
-        apart = f"{len(names)} views with {LEAST_GAP:g} mm between them"
+        apart = f"{len(own)} views with {LEAST_GAP:g} mm between them"
         raise OptionError(f"{page} has no room for {apart}: give a larger page, or fewer views")
     return best[1]
 
 
-def _cells(names: Sequence[str], sizes: Sequence[Size], method: ProjectionMethod, room: Room) -> tuple[Cell, ...]:
-    """The cell of each view: its own, or the free one that leaves the largest scale."""
-    found: dict[int, Cell] = {}
-    for i, name in enumerate(names):
-        if name in method.cells:
-            if method.cells[name] in found.values():
-                raise OptionError(f"the view {name} is given twice: a page shows it once")
-            found[i] = method.cells[name]
-    for i in range(len(names)):
-        if i in found:
-            continue
-        free = [cell for cell in method.free if cell not in found.values()]
-        if not free:
-            raise OptionError(f"{len(names)} views are too many for one page: give fewer, or none")
-        given = list(found)
+def _choices(
+    own: Sequence[Cell | None], sizes: Sequence[Size], method: ProjectionMethod, room: Room
+) -> Iterator[tuple[Cell, ...]]:
+    """Cells of all views: each way to place the first free ones, the better places first; the best for all others."""
+    taken = [cell for cell in own if cell is not None]
+    places = [cell for cell in method.free if cell not in taken]
+    free = [i for i, cell in enumerate(own) if cell is None]
+    for first in permutations(places, min(len(free), TRIED)):
+        cells = dict(zip(free, first, strict=False)) | {i: cell for i, cell in enumerate(own) if cell is not None}
+        for i in free[TRIED:]:
+            left = [cell for cell in places if cell not in cells.values()]
+            scales = [_scale([*cells, i], [*cells.values(), cell], sizes, room) for cell in left]
+            cells[i] = left[scales.index(max(scales))]
+        yield tuple(cells[i] for i in range(len(own)))
 
-        def scale(cell: Cell, i: int = i, given: Sequence[int] = given) -> float:
-            most = _most([sizes[k] for k in (*given, i)], [*(found[k] for k in given), cell], room)
-            return standard_scale(most) if most > 0.0 else 0.0
 
-        found[i] = max(free, key=scale)
-    return tuple(found[i] for i in range(len(names)))
+def _scale(views: Sequence[int], cells: Sequence[Cell], sizes: Sequence[Size], room: Room) -> float:
+    most = _most([sizes[i] for i in views], cells, room)
+    return standard_scale(most) if most > 0.0 else 0.0
 
 
 def _most(sizes: Sequence[Size], cells: Sequence[Cell], room: Room) -> float:

@@ -159,12 +159,12 @@ def _sized(
     diagonal = math.hypot(width, height) * per_model
     accuracy = choose(options.accuracy, diagonal)
     tolerances = derive(accuracy, per_model * magnified, diagonal, brep=brep)
-    notes = () if options.scale is None else _size_notes(diagonal, scale)
+    notes = () if options.scale is None else size_notes(diagonal, scale)
     sheet, known = placed.paper, settled(options)
     return Placement(scale, per_model, tolerances, unit, brep, aspect, magnified, notes, sheet, known, (width, height))
 
 
-def _size_notes(diagonal: float, scale: float) -> tuple[Note, ...]:
+def size_notes(diagonal: float, scale: float) -> tuple[Note, ...]:
     """What is said of a drawing (diagonal: millimetres) that its given scale makes very small or very large."""
     if 0.0 < diagonal < SMALLEST_PAPER:
         size = f"only {diagonal:.2g} mm"

@@ -168,8 +168,9 @@ def _notes(seen: Spacing, usual: Pens, pens: Pens, scale: float) -> tuple[Note, 
         notes.append(Note("thin-lines", text))
     crowded = seen.crowded(pens[0])
     if crowded > CROWDED:
-        better = ratio(standard_scale_from(scale * APART * pens[0] / seen.distance()))
-        text = f"{crowded:.0%} of the lines lie closer to others than twice their width: {better} would separate most."
+        better = standard_scale_from(scale * APART * pens[0] / seen.distance())
+        text = f"{crowded:.0%} of the lines lie closer to others than twice their width"
+        text += f": {ratio(better)} would separate most." if better > scale else "."
         notes.append(Note("crowded", text))
     return tuple(notes)
 

@@ -2,38 +2,39 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from time import perf_counter
 from typing import Any
 
 import numpy as np
 
 from hlr.common.types import Floats, Progress
-from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
+from hlr.drawing.drawing import Drawing, DrawnPart, DrawnView
 from hlr.drawing.line import Line
 from hlr.drawing.moved import moved
 from hlr.drawing.notes import Note
 from hlr.drawing.page import Page
-from hlr.drawing.pens import usual_pens_of
-from hlr.drawing.projection_symbol import projection_symbol
 from hlr.drawing.scale import ratio
 from hlr.drawing.sheet import Sheet, SheetView
 from hlr.errors import OptionError
-from hlr.image.arrangement import SLACK, Arrangement, Room, Size, arranged, inside_margins
-from hlr.image.paper import misfit
+from hlr.image.arrangement import SLACK, Arrangement, Room, Size, arranged, check_views, inside_margins
+from hlr.image.method_cells import own_cells
+from hlr.image.placement import size_notes
 from hlr.linework.legible import legible
 from hlr.pipeline.draw import draw_views
 from hlr.pipeline.session import Session, refuse_warnings
 from hlr.request.check import checked_views
+from hlr.request.directions import directed
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Planner
 from hlr.request.options import Options, View
-from hlr.request.style import Style
 from hlr.request.style_file import style_of
 from hlr.source.page_template import PageTemplate, Rectangle
 from hlr.source.selection import open_selected
-from hlr.tables.projection_methods import ProjectionMethod
+from hlr.tables.projection_methods import Cell, ProjectionMethod
 from hlr.tables.sheets import USUAL, Paper, papers
 
 OF_ONE_VIEW = {"page-too-small", "paper-size"}
@@ -74,12 +75,27 @@ class Printed:
             return [inside_margins(sheet) for sheet in sheets]
         return [_room(sheet, free) for sheet in sheets for free in template.rooms]
 
-    def svg(self, method: ProjectionMethod, drawing: Drawing) -> str:
-        """What is printed under the views: the template; without one the symbol of the method."""
-        if self.template is not None:
-            return self.template.filled(self.texts, ratio(drawing.scale))
-        page = drawing.area
-        return projection_symbol(method.name, page.width, page.height, usual_pens_of(drawing))
+    def svg(self, scale: float) -> str:
+        """The template with its texts; empty without one. scale: of the views, paper : model."""
+        return "" if self.template is None else self.template.filled(self.texts, ratio(scale))
+
+    def notes(self) -> list[Note]:
+        """What is said about the template."""
+        if self.template is None or self.room is not None or self.template.rooms:
+            return []
+        name = self.template.path.name
+        text = f"{name} does not say where views may lie: room (--room) keeps them off its title block."
+        return [Note("room-unknown", text)]
+
+
+@dataclass(frozen=True, slots=True)
+class _Views:
+    """The views of a page. cells: that the method has for each, None for those that lie in any free one."""
+
+    views: Sequence[View]
+    names: Sequence[str]
+    cells: Sequence[Cell | None]
+    method: ProjectionMethod
 
 
 def _on_any(sheets: Sequence[Paper], rectangle: Rectangle) -> list[Room]:
@@ -111,47 +127,55 @@ def draw_on_one_page(
 
     Raises as `draw_views`, and OptionError where the page has no room for the views.
     """
-    source = open_selected(source, options)
+    started = perf_counter()
     views = checked_views(views, options)
+    asked = _Views(views, [directed(view)[0] for view in views], own_cells(views, method), method)
+    check_views(asked.names, asked.cells, method)
+    source = open_selected(source, options)
     alone = replace(options, details=True, strict=False, same_scale=False)
     session = Session(source, views, alone)
-    names = [camera.name for camera in session.cameras]
+    reading = perf_counter() - started
     sizes: list[Size] = [(w * at.unit, h * at.unit) for at in session.placements for w, h in [at.size]]
     rooms = printed.rooms(options)
     scale = None if options.scale is None else float(options.scale)
-    found = arranged(names, sizes, method, rooms, scale)
+    found = arranged(asked.cells, sizes, method, rooms, scale)
     for _ in range(MOST_DRAWINGS):
         paper = found.room.paper
-        drawings = draw_views(
-            source, views, replace(alone, scale=found.scale, page=(paper.width, paper.height)), progress
-        )
+        on_page = replace(alone, scale=found.scale, page=(paper.width, paper.height))
+        drawings = draw_views(source, views, on_page, progress)
         sizes = [(d.bounds.width / found.scale, d.bounds.height / found.scale) for d in drawings]
-        better = arranged(names, sizes, method, rooms, scale)
+        better = arranged(asked.cells, sizes, method, rooms, scale)
         if better.scale <= found.scale:
             break
         found = better
-    drawing = _together(drawings, names, sizes, found, method, options)
-    if printed.template is not None and printed.room is None and not printed.template.rooms:
-        name = printed.template.path.name
-        text = f"{name} does not say where views may lie: room (--room) keeps them off its title block."
-        drawing = replace(drawing, notes=(*drawing.notes, Note("room-unknown", text)))
-    on_page = () if drawing.sheet is None else drawing.sheet.views
-    drawing = replace(drawing, sheet=Sheet(on_page, printed.svg(method, drawing)))
+    drawing = _together(drawings, sizes, found, asked, options, printed)
+    if scale is not None:
+        fits = arranged(asked.cells, sizes, method, rooms, None).scale
+        drawing = replace(drawing, notes=(*drawing.notes, *_of_scale(sizes, found, fits)))
     if options.strict:
         refuse_warnings(drawing.notes)
-    return drawing
+    return replace(drawing, timings=_timings(drawings, reading, perf_counter() - started))
+
+
+def _timings(drawings: Sequence[Drawing], reading: float, total: float) -> dict[str, float]:
+    """Seconds by stage: what all views share is told once, the rest is added up."""
+    stages = dict(drawings[0].timings)
+    for drawing in drawings[1:]:
+        for stage in ("plan", "visibility", "linework"):
+            stages[stage] = stages.get(stage, 0.0) + drawing.timings.get(stage, 0.0)
+    return {**stages, "source": reading, "total": total}
 
 
 def _together(
     drawings: Sequence[Drawing],
-    names: Sequence[str],
     sizes: Sequence[Size],
     found: Arrangement,
-    method: ProjectionMethod,
+    asked: _Views,
     options: Options,
+    printed: Printed,
 ) -> Drawing:
     """One drawing of all views."""
-    placed = _placed(drawings, names, sizes, found, method)
+    placed = _placed(drawings, sizes, found, asked)
     lines: list[Line] = []
     parts: list[DrawnPart] = []
     counters = Counter[str]()
@@ -160,62 +184,58 @@ def _together(
         lines += [moved(line, stay, each.shift, first) for line in each.drawing.lines]
         parts += [replace(part, name=f"{each.name}/{part.name}") for part in each.drawing.parts]
         counters.update(each.drawing.counters)
-    paper, style = found.room.paper, _on_page(style_of(options.style))
-    accuracy = max(drawing.accuracy.used for drawing in drawings)
+    paper, style = found.room.paper, style_of(options.style)
+    coarsest = max((drawing.accuracy for drawing in drawings), key=lambda accuracy: accuracy.used)
     room = (paper.width, paper.height)
-    shown = legible(lines, found.scale, accuracy, style, room, options, Planner(drawing_effects(), options))
+    shown = legible(lines, found.scale, coarsest.used, style, room, options, Planner(drawing_effects(), options))
     return Drawing(
         source=drawings[0].source,
-        view=DrawnView(method.name, "orthographic", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+        view=DrawnView(asked.method.name, "orthographic", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
         scale=found.scale,
         origin=(0.0, 0.0),
-        accuracy=Accuracy(options.accuracy, accuracy),
+        accuracy=replace(coarsest, asked=options.accuracy),
         unit=1.0,
         up_axis=((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
         parts=tuple(parts),
         lines=shown.lines,
-        notes=tuple(dict.fromkeys((*_notes(drawings, sizes, found), *shown.notes))),
+        notes=tuple(dict.fromkeys((*_notes(drawings), *shown.notes, *printed.notes()))),
         counters=dict(counters),
-        timings=drawings[-1].timings,
         page=Page(paper.name, paper.width, paper.height, 0.0, 0.0),
-        sheet=Sheet(tuple(_shown(each, found.scale) for each in placed)),
+        sheet=Sheet(tuple(_shown(each, found.scale) for each in placed), printed.svg(found.scale), asked.method.name),
         style=style,
         group=shown.group,
         reading=drawings[0].reading,
     )
 
 
-def _placed(
-    drawings: Sequence[Drawing],
-    names: Sequence[str],
-    sizes: Sequence[Size],
-    found: Arrangement,
-    method: ProjectionMethod,
-) -> list[_Placed]:
+def _placed(drawings: Sequence[Drawing], sizes: Sequence[Size], found: Arrangement, asked: _Views) -> list[_Placed]:
     """The views at their places. Those of a column and a row lie exactly in line with the first of it."""
     middles: dict[tuple[int, int, tuple[float, ...]], float] = {}
     placed = []
-    for drawing, name, cell, place in zip(drawings, names, found.cells, found.places(sizes), strict=True):
-        bounds, shift = drawing.bounds, []
-        axes = (drawing.view.right, drawing.view.up)
+    for i, place in enumerate(found.places(sizes)):
+        drawing, shift = drawings[i], []
+        axes, bounds = (drawing.view.right, drawing.view.up), drawing.bounds
         for k, (low, high) in enumerate(((bounds.x0, bounds.x1), (bounds.y0, bounds.y1))):
             middle = 0.5 * (low + high) + drawing.origin[k]
-            if method.cells.get(name) == cell:
-                middle = middles.setdefault((k, cell[k], axes[k]), middle)
+            if asked.cells[i] is not None:
+                middle = middles.setdefault((k, found.cells[i][k], axes[k]), middle)
             shift.append(place[k] - middle + drawing.origin[k])
-        placed.append(_Placed(drawing, name, place, np.array(shift)))
+        placed.append(_Placed(drawing, asked.names[i], place, np.array(shift)))
     return placed
 
 
-def _notes(drawings: Sequence[Drawing], sizes: Sequence[Size], found: Arrangement) -> list[Note]:
-    notes = [note for drawing in drawings for note in drawing.notes if note.code not in OF_ONE_VIEW]
+def _notes(drawings: Sequence[Drawing]) -> list[Note]:
+    return [note for drawing in drawings for note in drawing.notes if note.code not in OF_ONE_VIEW]
+
+
+def _of_scale(sizes: Sequence[Size], found: Arrangement, fits: float) -> list[Note]:
+    """What is said where a scale was asked for. fits: the largest standard one at which all views fit."""
     needs, room = found.needs(sizes), found.room
-    if room == inside_margins(room.paper):
-        too_large = misfit(needs, found.scale, room.paper)
-        return notes if too_large is None else [*notes, too_large]
+    notes = list(size_notes(found.scale * max(math.hypot(*size) for size in sizes), found.scale))
     if needs[0] > room.width + SLACK or needs[1] > room.height + SLACK:
         size, free = (f"{width:.4g} x {height:.4g} mm" for width, height in (needs, (room.width, room.height)))
-        text = f"the views, {size} at {ratio(found.scale)}, are too large for their room of {free}: give no scale"
+        text = f"the views, {size} at {ratio(found.scale)}, are too large for the page, which has room for {free}"
+        text += f": give the scale {ratio(fits)}, or a larger page."
         notes.append(Note("page-too-small", text))
     return notes
 
@@ -223,9 +243,3 @@ def _notes(drawings: Sequence[Drawing], sizes: Sequence[Size], found: Arrangemen
 def _shown(placed: _Placed, scale: float) -> SheetView:
     view = placed.drawing.view
     return SheetView(placed.name, view.name, scale, placed.place, 0.0, view.direction, view.right)
-
-
-def _on_page(style: Style) -> Style:
-    """The style with its rules for parts: a part is called by its view as well, front/bolt."""
-    rules = (rule if rule.parts is None else replace(rule, parts=f"*/{rule.parts}") for rule in style.lines)
-    return replace(style, lines=tuple(rules))

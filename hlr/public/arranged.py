@@ -15,6 +15,7 @@ from hlr.errors import OptionError
 from hlr.pipeline.arranged import Printed, draw_on_one_page
 from hlr.request.check import checked
 from hlr.request.options import Options, View
+from hlr.request.style import Style
 from hlr.source.page_template import Rectangle, read_page_template
 from hlr.tables.entry import listed
 from hlr.tables.projection_methods import PROJECTION_METHODS
@@ -46,8 +47,8 @@ def draw_arranged(
 
     source    as of `hlr.draw`
     method    "first-angle" (Europe, Asia) or "third-angle" (America): on which side of the front view the others lie
-    views     names or directions; None: front, top, left (first-angle) or right (third-angle), and iso. Pictorial views
-              lie in a corner that is free
+    views     names or directions; None: front, top, left (first-angle) or right (third-angle), and iso. Other views
+              lie in a cell that is free
     options   as of `hlr.draw`, without fit, window, up, perspective, fill, report and within; None: the defaults. The
               scale is the largest standard one at which all views fit the page, unless one is given
     progress  as of `hlr.draw`
@@ -73,7 +74,7 @@ def draw_arranged(
         raise OptionError(f"no method is called {method!r}: give {listed(PROJECTION_METHODS, 'or')}")
     options = checked(expect_record(Options, options, "draw_arranged"))
     check_arranged(options)
-    if views is not None and not views:
+    if views is not None and not (views := list(views)):
         raise OptionError("a page needs a view: give one, or None for the usual ones")
     printed = _printed(template, texts or {}, room, options)
     with at_most(options.threads):
@@ -111,8 +112,10 @@ def check_room(room: Any) -> None:
 
 
 def check_arranged(options: Options) -> None:
-    """Raise OptionError for options that say something of a single view."""
+    """Raise OptionError for options that say something of a single view. options: checked"""
     usual = Options()
+    if isinstance(options.style, Style) and options.style.part_colors == "fills":
+        raise OptionError("arranged views have lines alone: leave out part_colors, or let it colour the lines")
     if barred := [name for name in OF_ONE_VIEW if getattr(options, name) != getattr(usual, name)]:
         what = f"option{'s' if len(barred) > 1 else ''} {listed(barred, 'and')}"
-        raise OptionError(f"the views of a page have one scale and stand in line: leave out the {what}")
+        raise OptionError(f"only a view by itself has {listed(barred, 'or')}: leave out the {what}, or arrange")

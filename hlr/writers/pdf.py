@@ -19,6 +19,7 @@ import pydyf
 from hlr.common.colors import rgb_of
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.fill import Fill
+from hlr.drawing.printed import printed
 from hlr.writers.number import number
 from hlr.writers.strokes import Inked, Strokes, strokes
 from hlr.writers.svg import accuracies, reached, title
@@ -83,7 +84,7 @@ def document(drawing: Drawing, page: Strokes, sheet: Sheet) -> bytes:
 
     names = {f"L{i}": reference for i, reference in enumerate(layers.references)}
     resources = {"Properties": pydyf.Dictionary(names)}
-    if drawing.sheet is not None and drawing.sheet.template:
+    if printed(drawing):
         from hlr.writers.template_pdf import FONT, FONT_RESOURCE
 
         resources["Font"] = pydyf.Dictionary({FONT: FONT_RESOURCE})
@@ -135,11 +136,11 @@ def _content(drawing: Drawing, page: Strokes, sheet: Sheet, layers: _Layers) -> 
         area = f"0 0 {_real(sheet.width)} {_real(sheet.height)} re f"
         out.append(f"{begin} {_color(drawing.style.background or PAPER)} rg {area} EMC\n".encode("ascii"))
     out.append(f"{matrix} cm 1 j\n".encode("ascii"))
-    if drawing.sheet is not None and drawing.sheet.template:
+    if under := printed(drawing, solid=True):
         from hlr.writers.template_pdf import template_commands
 
         begin = layers.begin("template", "Template")
-        commands = template_commands(drawing.sheet.template, page.left, page.bottom + page.height)
+        commands = template_commands(under, page.left, page.bottom + page.height)
         out += [f"{begin} ".encode("ascii"), commands, b"EMC\n"]
     if drawing.fill is not None:
         out += _filled(drawing, drawing.fill, page.places, layers)

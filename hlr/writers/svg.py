@@ -24,8 +24,9 @@ from itertools import groupby
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.lines import held
 from hlr.drawing.pens import Pen, PenSet, part_color, usual_pens_of
+from hlr.drawing.printed import printed
 from hlr.drawing.scale import ratio
-from hlr.drawing.sheet import Sheet, SheetView
+from hlr.drawing.sheet import SheetView
 from hlr.errors import counted
 from hlr.writers.number import number
 from hlr.writers.strokes import Inked, Strokes, strokes
@@ -52,7 +53,7 @@ def svg(drawing: Drawing) -> bytes:
         f"<title>{escaped(title(drawing))}</title>\n",
         f"<desc>{escaped(description(drawing))}</desc>\n",
         _metadata(drawing),
-        "" if drawing.sheet is None else template(drawing.sheet, page),
+        template(printed(drawing), page),
     ]
     if drawing.fill is not None:
         from hlr.writers.fill import painted, svg_group
@@ -71,15 +72,13 @@ def svg(drawing: Drawing) -> bytes:
     return b"".join(text)
 
 
-def template(sheet: Sheet, page: Strokes) -> str:
+def template(content: str, page: Strokes) -> str:
     """What the page has printed on it, in the place of the drawing's coordinates; without the root's strokes."""
-    if not sheet.template:
+    if not content:
         return ""
     corner = f"{number(page.left, page.places)} {number(-page.bottom - page.height, page.places)}"
     plain = 'fill="#000000" stroke="none" stroke-width="1" stroke-linecap="butt" stroke-linejoin="miter"'
-    return (
-        f'<g id="template" {_layer(None, "Template")} transform="translate({corner})" {plain}>\n{sheet.template}</g>\n'
-    )
+    return f'<g id="template" {_layer(None, "Template")} transform="translate({corner})" {plain}>\n{content}</g>\n'
 
 
 Attributes = dict[str, str]

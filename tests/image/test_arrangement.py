@@ -7,7 +7,8 @@ from itertools import combinations
 import pytest
 
 from hlr.errors import OptionError
-from hlr.image.arrangement import LEAST_GAP, Room, arranged, inside_margins
+from hlr.image.arrangement import LEAST_GAP, Room, arranged, check_views, inside_margins
+from hlr.image.method_cells import own_cells
 from hlr.tables.projection_methods import PROJECTION_METHODS
 from hlr.tables.sheets import MARGIN, papers
 
@@ -21,8 +22,8 @@ def rooms_of(sheet):
 
 
 def page(names, method="third-angle", sheet="A4", scale=None):
-    sizes = [BLOCK[name] for name in names]
-    found = arranged(names, sizes, PROJECTION_METHODS[method], rooms_of(sheet), scale)
+    sizes, row = [BLOCK[name] for name in names], PROJECTION_METHODS[method]
+    found = arranged(own_cells(names, row), sizes, row, rooms_of(sheet), scale)
     return found, dict(zip(names, found.places(sizes), strict=True))
 
 
@@ -83,7 +84,7 @@ def test_a_pictorial_view_takes_the_free_cell_that_leaves_the_largest_scale():
 def test_a_sheet_lies_the_way_that_allows_the_larger_scale():
     assert page(["front", "top"])[0].room.paper.name == "A4"
     assert page(["front", "back"])[0].room.paper.width == 297.0
-    tall = arranged(["front"], [(10, 100)], PROJECTION_METHODS["first-angle"], rooms_of("A4"), None)
+    tall = arranged([(0, 0)], [(10, 100)], PROJECTION_METHODS["first-angle"], rooms_of("A4"), None)
     assert (tall.scale, tall.room.paper.height) == (2.0, 297.0)
 
 
@@ -92,23 +93,63 @@ def test_views_lie_inside_the_room_that_allows_the_larger_scale():
     above, beside = Room(paper, 20, 60, 260, 140), Room(paper, 20, 10, 80, 190)
     sizes = [BLOCK["front"], BLOCK["top"]]
     for order in ((above, beside), (beside, above)):
-        wide = arranged(["front", "top"], sizes, PROJECTION_METHODS["third-angle"], order, None)
+        wide = arranged([(0, 0), (0, 1)], sizes, PROJECTION_METHODS["third-angle"], order, None)
         assert wide.room == above
         for (x, y), (width, height) in zip(wide.places(sizes), sizes, strict=True):
             assert 20 <= x - wide.scale * width / 2 < x + wide.scale * width / 2 <= 280
             assert 60 <= y - wide.scale * height / 2 < y + wide.scale * height / 2 <= 200
-    tall = arranged(["left"], [(10, 90)], PROJECTION_METHODS["third-angle"], [above, beside], None)
+    tall = arranged([(-1, 0)], [(10, 90)], PROJECTION_METHODS["third-angle"], [above, beside], None)
     assert tall.room == beside
 
 
+def test_two_pictorial_views_lie_where_that_leaves_the_largest_scale():
+    # 100 x 15 x 30 in five views: at 1:1 only with both pictorial ones in a third column.
+    names, sizes = ["front", "top", "right", "iso", "iso-sw"], [(100, 30), (100, 15), (15, 30), (82, 64), (82, 64)]
+    row = PROJECTION_METHODS["third-angle"]
+    found = arranged(own_cells(names, row), sizes, row, rooms_of("A4"), None)
+    assert found.scale == 1.0
+    assert len(set(found.cells)) == 5
+
+
+def test_a_long_part_has_its_pictorial_view_above_or_below():
+    row = PROJECTION_METHODS["first-angle"]
+    for sizes, along in (([(1000, 5), (711, 411)], 0), ([(5, 1000), (411, 711)], 1)):
+        found = arranged([(0, 0), None], sizes, row, rooms_of("A4"), None)
+        assert found.scale == 0.2
+        assert found.cells[1][along] == 0
+
+
 @pytest.mark.parametrize(
-    ("names", "sheet", "words"),
+    ("direction", "cell"),
     [
-        (["front", "top", "front"], "A4", "the view front is given twice"),
-        (["front", "top", "right", "iso"], "30x30", "a page of 30 x 30 mm has no room for 4 views with 10 mm between"),
-        (["front", *["iso"] * 12], "A4", "13 views are too many for one page"),
+        ((0, -1, 0), (0, 0)),
+        ((0, 0, 2), (0, 1)),
+        ((1, 0, 0), (1, 0)),
+        ((0, 5, 0), (2, 0)),
+        ((1, -1, 0), None),
+        ((0, 1e-3, 1), None),
     ],
 )
-def test_what_cannot_be_arranged_is_refused(names, sheet, words):
+def test_a_direction_along_an_axis_has_the_place_of_that_view(direction, cell):
+    assert own_cells([direction], PROJECTION_METHODS["third-angle"]) == [cell]
+
+
+def test_a_page_without_room_is_refused():
+    with pytest.raises(OptionError, match="a page of 30 x 30 mm has no room for 4 views with 10 mm between"):
+        page(["front", "top", "right", "iso"], sheet="30x30")
+
+
+@pytest.mark.parametrize(
+    ("views", "words"),
+    [
+        (["front", "top", "front"], "the view front is given twice"),
+        (["iso", "iso"], "the view iso is given twice"),
+        (["front", (0, -1, 0)], "the view front is given twice"),
+        (["front", *((1, n, 1) for n in range(1, 15))], "15 views are too many for one page"),
+    ],
+)
+def test_what_cannot_be_arranged_is_refused(views, words):
+    row = PROJECTION_METHODS["first-angle"]
+    names = [view if isinstance(view, str) else ",".join(map(str, view)) for view in views]
     with pytest.raises(OptionError, match=words):
-        page(names, sheet=sheet)
+        check_views(names, own_cells(views, row), row)

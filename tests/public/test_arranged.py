@@ -73,8 +73,9 @@ def test_a_ball_of_which_less_is_seen_than_its_box_is_drawn_once_more():
 def test_a_scale_that_is_too_large_is_drawn_with_a_warning():
     page = hlr.draw_arranged(bracket(), options=hlr.Options(scale="5:1"))
     (note,) = (note for note in page.notes if note.is_warning)
-    assert "too large for its page A4: give the scale 2:1, or the page A1" in note.text
-    with pytest.raises(hlr.StrictError, match="too large for its page"):
+    assert "the views, 663.6 x 423.1 mm at 5:1, are too large for the page" in note.text
+    assert "give the scale 2:1, or a larger page" in note.text
+    with pytest.raises(hlr.StrictError, match="too large for the page"):
         hlr.draw_arranged(bracket(), options=hlr.Options(scale="5:1", strict=True))
 
 
@@ -93,6 +94,51 @@ def test_rules_for_parts_hold_in_each_view():
     svg = page.to_svg()
     assert "#ff0000" in svg
     assert not re.search(r'<g id="visible"[^>]*stroke="#000000"[^>]*>\s*<g[^>]*>\s*<path', svg)
+    assert (
+        hlr.draw_arranged(bracket())
+        .with_style(hlr.Style(lines=(hlr.LineRule(parts="*", color="red"),)))
+        .to_svg()
+        .count("#ff0000")
+    )
+    front = hlr.draw_arranged(bracket()).with_style(hlr.Style(lines=(hlr.LineRule(parts="front", color="red"),)))
+    assert "#ff0000" not in front.to_svg()  # no part is called so
+
+
+def test_the_symbol_has_the_colour_of_the_style():
+    page = hlr.draw_arranged(bracket())
+    dark = page.with_style("dark").to_svg()
+    assert 'stroke="#000000"' not in dark[dark.index('id="template"') :].partition("</g>")[0].partition("<g fill")[2]
+    assert page.with_style({"visible": {"color": "currentColor"}}).to_pdf().startswith(b"%PDF")
+
+
+def test_a_narrow_page_has_no_symbol():
+    narrow = hlr.draw_arranged(bracket(), views=["front"], options=hlr.Options(page=(40, 100)))
+    assert 'id="template"' not in narrow.to_svg()
+
+
+def test_what_all_views_took_is_told():
+    page = hlr.draw_arranged(bracket())
+    stages = ("source", "tessellate", "scene", "plan", "visibility", "linework")
+    assert page.timings["total"] >= 0.99 * sum(page.timings[stage] for stage in stages)
+    assert page.accuracy.deflection > 0.0
+
+
+def test_pages_at_two_scales_are_compared_view_by_view():
+    one, other = (
+        hlr.draw_arranged(bracket(), options=hlr.Options(scale=scale, smooth=False, details=True)) for scale in (1, 2)
+    )
+    found = hlr.compare.compare(one, other)
+    assert found.scales == (1.0, 2.0)
+    assert not found.differences
+
+
+def test_a_page_is_not_compared_with_a_model(tmp_path):
+    with pytest.raises(hlr.OptionError, match="is a page of 4 views, and a model is drawn in one"):
+        hlr.compare.compare(hlr.draw_arranged(bracket()), bracket())
+
+
+def test_views_may_come_one_by_one():
+    assert len(hlr.draw_arranged(bracket(), views=iter(["front", "top"])).sheet.views) == 2
 
 
 @pytest.mark.parametrize(("method", "cone_first"), [("first-angle", True), ("third-angle", False)])
@@ -110,7 +156,13 @@ def test_the_symbol_of_the_method(method, cone_first):
         (None, None, {}, "no method is called None"),
         ("first-angle", [], {}, "a page needs a view"),
         ("first-angle", ["front", "front"], {}, "the view front is given twice"),
-        ("first-angle", None, {"fit": "A4"}, "leave out the option fit"),
+        ("first-angle", None, {"fit": "A4"}, "only a view by itself has fit: leave out the option fit, or arrange"),
+        (
+            "first-angle",
+            None,
+            {"style": {"part-colors": "fills"}},
+            "arranged views have lines alone: leave out part_colors",
+        ),
         ("first-angle", None, {"up": (0, 1, 0), "within": 2.0}, "leave out the options up and within"),
         ("first-angle", None, {"page": (25, 25)}, "has no room for 4 views"),
     ],

@@ -150,7 +150,7 @@ def test_what_contradicts_is_refused(template, options, words):
 
 def test_a_scale_that_is_too_large_for_the_room_is_told(template):
     page = hlr.draw_arranged(BOX, template=template(), options=hlr.Options(scale=10))
-    assert any("are too large for their room of" in note.text for note in page.notes if note.is_warning)
+    assert any("which has room for 267 x 142 mm: give the scale" in note.text for note in page.notes if note.is_warning)
 
 
 def test_a_template_that_does_not_say_where_its_title_block_is(template):

@@ -77,6 +77,9 @@ def side_of_model(given: Any, other: Side | None, tolerance_mm: float, view: Vie
 
     The view is the one that the other side states, or else the named one that fits its lines best.
     """
+    if other is not None and other.about.views:
+        page = f"{other.title} is a page of {len(other.about.views)} views"
+        raise OptionError(f"{page}, and a model is drawn in one: compare it with another page")
     source = open_source(given)
     options = _options(other, tolerance_mm)
     fit = Fit(view or "iso", 1.0)

@@ -29,7 +29,8 @@ def about_ours(root: Element) -> About | None:
         return None
     parts, views = (tuple(each.get("name", "") for each in ours.iter(f"{_OURS}{tag}")) for tag in ("part", "view"))
     stated = None if views else stated_in(ours.get("view"), ours.attrib)
-    return About(parts, scale_of(ours.get("scale", "")), views, stated=stated)
+    said = {each.get("scale", "") for each in ours.iter(f"{_OURS}view")} if views else {ours.get("scale", "")}
+    return About(parts, scale_of(said.pop()) if len(said) == 1 else None, views, stated=stated)
 
 
 def read_ours(root: Element, about: About, sketch: Sketch) -> None:

@@ -131,7 +131,8 @@ def _read_drawing(drawing: Drawing, sketch: Sketch) -> About:
             for k in range(0, len(points) - 1, 3):
                 sketch.cubic(*points[k : k + 4])
     if drawing.sheet is not None:
-        return About(parts, None, views)
+        scales = {view.scale for view in drawing.sheet.views}
+        return About(parts, scales.pop() if len(scales) == 1 else None, views)
     return About(parts, drawing.scale, views, stated=stated_by(drawing.view))
 
 
