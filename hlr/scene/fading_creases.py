@@ -2,13 +2,15 @@
 
 Below the crease angle, the fold alone does not tell a crease from the facets of a curved face. It is a crease still
 where it goes straight on from one, is not much smaller than the fold before, and far larger than every fold beside it.
-The last bit, where nothing tells it from a facet, is drawn if two creases face each other across it.
+The last bit, where nothing tells it from a facet, is drawn if two creases run into one another there.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from itertools import combinations
 
 import numpy as np
 import numpy.typing as npt
@@ -34,10 +36,13 @@ LONG_ENOUGH = 4
 """Only creases of at least this many edges are followed: the direction of a shorter one may be chance."""
 
 GAP = 0.2
-"""Creases that face each other are joined across a gap of up to this share of the shorter one's length."""
+"""Creases that run into one another are joined across a gap of up to this share of the shorter one's length."""
 
 GAP_EDGES = 6
-"""A gap has at most as many edges."""
+"""From its end, a crease goes on into a gap for at most as many edges."""
+
+MEETING = 8
+"""Of the creases that meet in one point at most so many are looked at."""
 
 Kinds = npt.NDArray[np.uint8]
 
@@ -57,6 +62,16 @@ class _End:
     def step(self, edge: int, other: int, fold: float) -> None:
         self.before, self.vertex, self.fold = self.vertex, other, fold
         self.way.append(edge)
+
+
+@dataclass(frozen=True)
+class _Way:
+    """The way from an end to a vertex. length: model units."""
+
+    end: _End
+    vertex: int
+    edges: tuple[int, ...]
+    length: float
 
 
 class _Around:
@@ -153,28 +168,33 @@ def _followed(
 
 
 def _joined(ends: list[_End], kind: Kinds, edges: Ints, points: Floats) -> list[int]:
-    """Edges of the gaps between ends that face each other."""
+    """Edges of the gaps between ends that meet in one vertex, each straight on: head to head, or as a V."""
     reached = np.zeros(len(points), bool)
     reached[[end.vertex for end in ends]] = True
-    for _ in range(GAP_EDGES // 2):
+    for _ in range(GAP_EDGES):
         reached[edges[reached[edges].any(axis=1)]] = True
     inside = np.flatnonzero(reached[edges].all(axis=1) & (kind == 255)).astype(np.int32)
     around = _Around(inside, edges, points)
-    at = {end.vertex: end for end in ends}
+    passing: dict[int, list[_Way]] = {}
+    for end in ends:
+        for way in _ways(end, around, points):
+            passing.setdefault(way.vertex, []).append(way)
     found: list[int] = []
-    for first in ends:
-        last = replace(first, way=[])
-        while len(last.way) < GAP_EDGES and (on := around.straight_on(last)) is not None:
-            last.step(*on, 0.0)
-            facing = at.get(last.vertex)
-            if facing is None:
-                continue
-            gap = sum(math.dist(*points[edges[e]]) for e in last.way)
-            straight = around.turns(_End(facing.before, facing.vertex), np.array([last.before]))[0] <= STRAIGHT
-            if facing is not first and straight and gap <= GAP * min(first.length, facing.length):
-                found += last.way
-            break
+    for ways in passing.values():
+        for one, other in combinations(ways[:MEETING], 2):
+            if one.end is not other.end and one.length + other.length <= GAP * min(one.end.length, other.end.length):
+                found += (*one.edges, *other.edges)
     return found
+
+
+def _ways(end: _End, around: _Around, points: Floats) -> Iterator[_Way]:
+    """From an end to each vertex straight on, as far as a gap may reach; the first is the end itself."""
+    at, length = replace(end, way=[]), 0.0
+    yield _Way(end, end.vertex, (), 0.0)
+    while len(at.way) < GAP_EDGES and (on := around.straight_on(at)) is not None:
+        length += math.dist(points[at.vertex], points[on[1]])
+        at.step(*on, 0.0)
+        yield _Way(end, at.vertex, tuple(at.way), length)
 
 
 def _degrees(cosine: float) -> float:

@@ -45,6 +45,19 @@ def test_no_crease_ends_where_the_ellipses_cross(view):
         assert ((ends < 1e-4) | (ends > 0.9 * RADIUS)).all()
 
 
+@pytest.mark.parametrize(("deflection", "angle"), [(0.005, 0.03), (0.02, 0.1), (0.05, 0.2), (0.2, 0.3)])
+def test_a_pipe_that_ends_in_another_meets_it_in_a_v(deflection, angle):
+    one = cq.Workplane("XZ").circle(RADIUS).extrude(LENGTH / 2, both=True)
+    shape = one.union(cq.Workplane("YZ").circle(RADIUS).extrude(LENGTH / 2)).val()
+    points, triangles = shape.tessellate(deflection, angle)
+    drawing = hlr.draw((np.array([p.toTuple() for p in points]), np.array(triangles)), "top", fit=(150, 150))
+    near = [line for line in creases(drawing) if np.linalg.norm(line - (0, 0, RADIUS), axis=1).min() < 0.5 * RADIUS]
+    at_tip = [np.linalg.norm(line - (0, 0, RADIUS), axis=1).argmin() for line in near]
+    assert near
+    for line, i in zip(near, at_tip, strict=True):
+        assert np.linalg.norm(line[i] - (0, 0, RADIUS)) < 1e-4 * RADIUS
+
+
 def _ellipse(a, b):
     """The length of an ellipse with the half axes a and b."""
     t = np.linspace(0, 2 * np.pi, 20001)

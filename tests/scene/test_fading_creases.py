@@ -66,4 +66,5 @@ def test_a_short_gap_between_two_is_closed():
     assert followed([28, 2, 1, 2, 28], chosen=20, part_of_gap=20) == 5
     assert followed([2, 1, 2], chosen=20, part_of_gap=20) == 3
     assert followed([2, 1, 2], chosen=20, part_of_gap=10) == 0
-    assert followed([0.5] * 7, chosen=90, part_of_gap=90) == 0
+    assert followed([0.5] * 12, chosen=90, part_of_gap=90) == 12
+    assert followed([0.5] * 13, chosen=90, part_of_gap=90) == 0
