@@ -59,8 +59,38 @@ pub fn triangulate(
     steps.reached(DONE[1]);
     work.evaluate(&outline, &inner);
     let error = work.refine();
-    let Work { corners, net, .. } = work;
-    Ok(Ok(Draft { outline, corners, triangles: net.into_triangles(), stand_in, error, turned: Vec::new() }))
+    let Work { corners, net, places, .. } = work;
+    let (triangles, bent_chart) = (net.into_triangles(), (!straight).then_some(places));
+    Ok(Ok(Draft { outline, corners, triangles, stand_in, error, bent_chart, turned: Vec::new() }))
+}
+
+/// The largest error of some triangles of a mesh, leaving out those of which the border allows no better.
+pub fn largest_error(
+    surface: &Surface,
+    outline: &Outline,
+    corners: &[Corner],
+    triangles: impl Iterator<Item = [u32; 3]>,
+    deflection: f64,
+) -> f64 {
+    let error = |t: [u32; 3]| {
+        let at = t.map(|i| &corners[i as usize]);
+        let bends = at.map(|c| corner(surface, c.uv, None).1);
+        // Measured as well, as if knots lay between the corners: knots are not looked up here.
+        let gap = gap(surface, at, bends.each_ref(), true, deflection);
+        if is_due_to_border(outline, t, &gap, deflection) { 0.0 } else { gap.whole }
+    };
+    triangles.map(error).fold(0.0, f64::max)
+}
+
+/// Whether a triangle exceeds the deflection because the chords of the border beside it allow no better.
+fn is_due_to_border(outline: &Outline, t: [u32; 3], gap: &Gap, deflection: f64) -> bool {
+    let beside = (0..3).filter(|&k| is_chord(outline, t[k], t[(k + 1) % 3])).map(|k| gap.edges[k]);
+    gap.whole > deflection && gap.whole <= MESH_BESIDE_BORDER * beside.fold(0.0, f64::max)
+}
+
+fn is_chord(outline: &Outline, a: u32, b: u32) -> bool {
+    let count = outline.len() as u32;
+    a < count && b < count && (outline.after(a) == b || outline.after(b) == a)
 }
 
 /// Approximate share of the work on a face that is done when its inner points are known, when they are triangulated,
@@ -211,19 +241,11 @@ impl<'a> Work<'a> {
         let spans = at.map(|i| self.spans[i]);
         let kinked = spans[0] != spans[1] || spans[1] != spans[2];
         let gap = gap(self.surface, corners, bends, kinked, self.deflection);
-        if gap.whole > self.deflection {
-            let beside = (0..3).filter(|&k| self.is_chord(t[k], t[(k + 1) % 3])).map(|k| gap.edges[k]);
-            if gap.whole > MESH_BESIDE_BORDER * beside.fold(0.0, f64::max) {
-                coarse.push(Coarse { gap, corners: t, number });
-            }
-        } else {
+        if gap.whole <= self.deflection {
             *worst = worst.max(gap.whole);
+        } else if !is_due_to_border(self.chart, t, &gap, self.deflection) {
+            coarse.push(Coarse { gap, corners: t, number });
         }
-    }
-
-    fn is_chord(&self, a: u32, b: u32) -> bool {
-        let count = self.chart.len() as u32;
-        a < count && b < count && (self.chart.after(a) == b || self.chart.after(b) == a)
     }
 
     /// Inserts a point for each coarse triangle, unless a neighbour already got one in this round. Returns whether any
@@ -260,12 +282,12 @@ impl<'a> Work<'a> {
             (0..3).all(|k| {
                 let (from, to) = ends[k];
                 let length = (to[0] - from[0]).powi(2) + (to[1] - from[1]).powi(2);
-                !self.is_chord(t[k], t[(k + 1) % 3]) || distance2(p, &from, &to) > off * off * length
+                !is_chord(self.chart, t[k], t[(k + 1) % 3]) || distance2(p, &from, &to) > off * off * length
             })
         };
         let middle = |k: usize| [0, 1].map(|i| 0.5 * (ends[k].0[i] + ends[k].1[i]));
         OFF.iter().find_map(|&off| {
-            let inner = order.iter().filter(|&&k| !self.is_chord(t[k], t[(k + 1) % 3]));
+            let inner = order.iter().filter(|&&k| !is_chord(self.chart, t[k], t[(k + 1) % 3]));
             let split = inner.map(|&k| middle(k)).find(|p| clear(p, off));
             split.or_else(|| Some([0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0)).filter(|p| clear(p, off)))
         })

@@ -19,6 +19,7 @@ mod plane;
 mod progress;
 mod ruled;
 mod spacing;
+mod straighten;
 mod strips;
 mod sweep;
 mod triangulation;
@@ -62,6 +63,7 @@ pub fn mesh_face(
     steps: &Progress,
 ) -> Result<FaceMesh, Fault> {
     let bent = |straight| doubly_curved::triangulate(surface, loops, deflection, angle, straight, steps);
+    let proved = |made| proved(surface, made, deflection);
     let made = match (surface, ruled::straight_along(surface)) {
         (Surface::Plane(_), _) => proved(flat(surface, Outline::new(loops, |_, _, _| ())?, deflection, steps)),
         (_, Some(straight)) => {
@@ -118,18 +120,43 @@ pub fn points_inside(surface: &Surface, deflection: f64, angle: f64) -> Option<u
 }
 
 /// The mesh, proved to fill the loops and use all of their points; the outline where the proof fails.
-fn proved(made: Result<Draft, Box<Outline>>) -> Result<Draft, Box<Outline>> {
+fn proved(surface: &Surface, made: Result<Draft, Box<Outline>>, deflection: f64) -> Result<Draft, Box<Outline>> {
     let mut made = made?;
     made.outline.rejoin(&mut made.triangles);
     let uv: Vec<_> = made.corners.iter().map(|c| c.uv).collect();
+    let in_chart = made.bent_chart.as_ref().map(|_| made.triangles.clone());
     flip::upright(&uv, &mut made.triangles);
-    let Some(proof) = check::proof(&made.outline, &uv, &made.stand_in, &made.triangles) else {
+    let mut proof = check::proof(&made.outline, &uv, &made.stand_in, &made.triangles);
+    if proof.is_none() && straightened(surface, &mut made, &uv, in_chart, deflection) {
+        proof = check::proof(&made.outline, &uv, &made.stand_in, &made.triangles);
+    }
+    let Some(proof) = proof else {
         return Err(Box::new(made.outline));
     };
     if !proof.in_sense {
         made.turned = check::turned(&made.outline, &made.stand_in, &made.triangles);
     }
     Ok(made)
+}
+
+/// Replaces the triangles by those of the chart, straightened. Whether that succeeds, and the flipped ones keep the
+/// deflection.
+fn straightened(
+    surface: &Surface,
+    made: &mut Draft,
+    uv: &[[f64; 2]],
+    in_chart: Option<Vec<[u32; 3]>>,
+    deflection: f64,
+) -> bool {
+    let (Some(chart), Some(in_chart)) = (&made.bent_chart, in_chart) else { return false };
+    made.triangles.clone_from(&in_chart);
+    if !straighten::straighten(chart, uv, &mut made.triangles) {
+        return false;
+    }
+    let flipped = made.triangles.iter().zip(&in_chart).filter(|(new, old)| new != old).map(|(new, _)| *new);
+    let error = doubly_curved::largest_error(surface, &made.outline, &made.corners, flipped, deflection);
+    made.error = made.error.max(error);
+    error <= deflection
 }
 
 /// The mesh without inner points; the outline where the loops cannot be filled.
@@ -142,7 +169,7 @@ fn flat(surface: &Surface, outline: Outline, deflection: f64, steps: &Progress) 
         _ => Corner { uv, point, normal: surface.normal(uv).unwrap_or_default() },
     };
     let corners = outline.uv.iter().zip(&outline.points).map(corner).collect();
-    Ok(Draft { outline, corners, triangles, stand_in, error, turned: Vec::new() })
+    Ok(Draft { outline, corners, triangles, stand_in, error, bent_chart: None, turned: Vec::new() })
 }
 
 const ROUNDING: f64 = 1e-9;

@@ -1,0 +1,81 @@
+//! Triangles that overlap in (u, v), though they do not in the bent chart in which they were made.
+//!
+//! The chart stretches u and v, so a straight edge of the chart is bent in (u, v), and may pass a point on the other
+//! side. One flip puts most of these right (`flip::upright`). Where the chart changes much within one edge, as at the
+//! neck of a torus whose hole is nearly closed, several edges pass the same point.
+//!
+//! The points are moved from the chart to (u, v) in steps. Wherever a point comes to an edge on its way, that edge is
+//! flipped, so the triangles never overlap: a kinetic triangulation.
+
+use super::flip;
+use super::plane::{area, side};
+
+/// Share of the way in one step: the first, and the least. A step after which triangles overlap is halved.
+const STEPS: [f64; 2] = [0.125, 1.0 / 4096.0];
+
+/// Flips edges so that no triangle is turned over in (u, v). False where that needs steps below the least.
+///
+/// `chart`: the same points in the chart, where no triangle is turned over.
+pub fn straighten(chart: &[[f64; 2]], uv: &[[f64; 2]], triangles: &mut Vec<[u32; 3]>) -> bool {
+    let fit = [0, 1].map(|k| onto(range(chart, k), range(uv, k)));
+    let mut places = chart.to_vec();
+    let (mut passed, [mut step, least]) = (0.0, STEPS);
+    while passed < 1.0 {
+        let next = f64::min(passed + step, 1.0);
+        for ((place, from), to) in places.iter_mut().zip(chart).zip(uv) {
+            *place = if next < 1.0 { [0, 1].map(|k| (1.0 - next) * fit[k](from[k]) + next * to[k]) } else { *to };
+        }
+        let mut flipped = triangles.clone();
+        flip::upright(&places, &mut flipped);
+        let at = |i: u32| &places[i as usize];
+        let over = |&[a, b, c]: &[u32; 3]| area(at(a), at(b), at(c)) <= 0.0 && side(at(a), at(b), at(c)) < 0.0;
+        if !flipped.iter().any(over) {
+            (*triangles, passed) = (flipped, next);
+        } else if step > least {
+            step *= 0.5;
+        } else {
+            return false;
+        }
+    }
+    true
+}
+
+/// The least and the greatest of one coordinate.
+fn range(places: &[[f64; 2]], k: usize) -> [f64; 2] {
+    places.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p[k]), high.max(p[k])])
+}
+
+/// The linear map of one range onto another.
+fn onto([low, high]: [f64; 2], [first, last]: [f64; 2]) -> impl Fn(f64) -> f64 {
+    let scale = (last - first) / (high - low);
+    move |x| first + scale * (x - low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_that_passes_several_edges_is_free_again() {
+        // A fan from the lower left corner to a row of points on the right side, and a point below the fan, which
+        // rises into it.
+        let mut chart = vec![[0.0, 0.0], [1.0, 0.0]];
+        chart.extend((0..8u8).map(|k| [1.0, 0.3 + 0.1 * f64::from(k)]));
+        chart.extend([[0.0, 1.0], [0.5, 0.1]]);
+        // 0 and 1 are the lower corners, 2 to 9 the row, the last of them the upper right corner, 10 the upper left one.
+        let mut triangles: Vec<[u32; 3]> = (2..9).map(|k| [0, k, k + 1]).collect();
+        triangles.extend([[0, 9, 10], [0, 1, 11], [1, 2, 11], [2, 0, 11]]);
+        let mut uv = chart.clone();
+        uv[11] = [0.5, 0.42];
+        let area_of = |t: &[u32; 3], at: &[[f64; 2]]| area(&at[t[0] as usize], &at[t[1] as usize], &at[t[2] as usize]);
+        assert!(triangles.iter().all(|t| area_of(t, &chart) > 0.0));
+        let mut once = triangles.clone();
+        flip::upright(&uv, &mut once);
+        assert!(once.iter().any(|t| area_of(t, &uv) < 0.0));
+        assert!(straighten(&chart, &uv, &mut triangles));
+        assert!(triangles.iter().all(|t| area_of(t, &uv) >= 0.0));
+        assert_eq!(triangles.len(), 11);
+        let whole: f64 = triangles.iter().map(|t| area_of(t, &uv)).sum();
+        assert!((whole - 2.0).abs() < 1e-12);
+    }
+}
