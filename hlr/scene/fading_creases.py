@@ -32,6 +32,9 @@ FADES = 0.5
 STRAIGHT = 15.0
 """Degrees: from edge to edge, a crease that fades turns by no more than this."""
 
+ALONG = math.cos(math.radians(30.0))
+"""Edges whose directions differ by less run along one another."""
+
 LONG_ENOUGH = 4
 """Only creases of at least this many edges are followed: the direction of a shorter one may be chance."""
 
@@ -40,6 +43,9 @@ GAP = 0.2
 
 GAP_EDGES = 6
 """From its end, a crease goes on into a gap for at most as many edges."""
+
+LONGER = 3.0
+"""No edge in a gap is longer than so many times the last edge before it, whose direction it follows."""
 
 MEETING = 8
 """Of the creases that meet in one point at most so many are looked at."""
@@ -90,6 +96,11 @@ class _Around:
         """The edges at a vertex, and their other vertices."""
         first, last = np.searchsorted(self._vertex, [vertex, vertex + 1])
         return self._edge[first:last], self._other[first:last]
+
+    def between(self, one: int, other: int) -> list[int]:
+        """The edge between two vertices, if it is one of these."""
+        edges, others = self.at(one)
+        return list(edges[others == other].tolist())
 
     def straight_on(self, end: _End) -> tuple[int, int] | None:
         """The edge that goes on most nearly straight, and its other vertex."""
@@ -147,24 +158,33 @@ def _followed(
     ends: list[_End], kind: Kinds, mesh: MeshFacts, triangles: Ints, fold: Floats, points: Floats
 ) -> list[int]:
     """Follows each crease while its fold stands out. The ends move on."""
-    folded = np.flatnonzero((kind == 255) & (fold < math.cos(math.radians(LEAST_FOLD / STANDS_OUT))))
-    around = _Around(folded.astype(np.int32), mesh.edges, points)
+    folded = np.flatnonzero(fold < math.cos(math.radians(LEAST_FOLD / STANDS_OUT))).astype(np.int32)
+    around, on_from = (_Around(some, mesh.edges, points) for some in (folded, folded[kind[folded] == 255]))
     taken: set[int] = set()
     for end in ends:
         # An edge is walked once: so all walks together are no longer than the mesh has edges.
-        while (on := around.straight_on(end)) is not None and on[0] not in taken:
+        while (on := on_from.straight_on(end)) is not None and on[0] not in taken:
             edge, other = on
             ahead = around.straight_on(_End(end.vertex, other))
-            along = [edge, *end.way[-1:], *(ahead or ())[:1]]
+            along = [edge, *around.between(end.before, end.vertex), *(ahead or ())[:1]]
             corners = np.unique(triangles[mesh.incident[mesh.offsets[edge] : mesh.offsets[edge + 1]]])
             near = np.concatenate([around.at(vertex)[0] for vertex in corners.tolist()])
-            beside = fold[near[~np.isin(near, along)]].min(initial=1.0)
+            near = near[~np.isin(near, along)]
+            # Creases that run across are no facets beside this one: the rim at which its triangles end.
+            beside = fold[near[(kind[near] == 255) | _parallel(near, edge, mesh.edges, points)]].min(initial=1.0)
             own = _degrees(float(fold[edge]))
             if own < max(LEAST_FOLD, FADES * end.fold, STANDS_OUT * _degrees(float(beside))):
                 break
             taken.add(edge)
             end.step(edge, other, own)
     return [edge for end in ends for edge in end.way]
+
+
+def _parallel(near: Ints, edge: int, edges: Ints, points: Floats) -> npt.NDArray[np.bool_]:
+    """(k,) which of the edges `near` (k,) run along an edge rather than across it."""
+    ways = points[edges[near, 1]] - points[edges[near, 0]]
+    way = points[edges[edge, 1]] - points[edges[edge, 0]]
+    return np.asarray(abs(ways @ way) >= ALONG * np.linalg.norm(ways, axis=1) * np.linalg.norm(way))
 
 
 def _joined(ends: list[_End], kind: Kinds, edges: Ints, points: Floats) -> list[int]:
@@ -190,9 +210,13 @@ def _joined(ends: list[_End], kind: Kinds, edges: Ints, points: Floats) -> list[
 def _ways(end: _End, around: _Around, points: Floats) -> Iterator[_Way]:
     """From an end to each vertex straight on, as far as a gap may reach; the first is the end itself."""
     at, length = replace(end, way=[]), 0.0
+    last = math.dist(points[end.before], points[end.vertex])
     yield _Way(end, end.vertex, (), 0.0)
     while len(at.way) < GAP_EDGES and (on := around.straight_on(at)) is not None:
-        length += math.dist(points[at.vertex], points[on[1]])
+        step = math.dist(points[at.vertex], points[on[1]])
+        if step > LONGER * last:
+            break
+        length += step
         at.step(*on, 0.0)
         yield _Way(end, at.vertex, tuple(at.way), length)
 

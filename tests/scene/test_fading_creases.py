@@ -11,8 +11,10 @@ from support.meshes import mesh_facts
 CREASE, INTERIOR = 0, 255
 
 
-def followed(folds, beside=2.0, chosen=6, turn=0.0, part_of_gap=0):
+def followed(folds, beside=2.0, chosen=6, turn=0.0, part_of_gap=0, longer=1.0, crease_beside=False):
     """How many edges a row goes on: `chosen` creases of 40 degrees, then `folds`, then `part_of_gap` creases again.
+
+    longer: how much longer than the others the edges of `folds` are; crease_beside: the edges beside are creases.
 
     To one side of the row lies a strip of triangles, beyond it a row of edges with the fold `beside`. `turn`: degrees
     from edge to edge.
@@ -20,6 +22,7 @@ def followed(folds, beside=2.0, chosen=6, turn=0.0, part_of_gap=0):
     row = [40.0] * chosen + list(folds) + [40.0] * part_of_gap
     along = np.radians(np.cumsum([turn] * len(row)))
     steps = np.stack([np.cos(along), np.sin(along), 0 * along], axis=1)
+    steps[chosen : chosen + len(folds)] *= longer
     points = np.concatenate([[(0, 0, 0)], np.cumsum(steps, axis=0)])
     points = np.concatenate([points, points + (0, 0, 5)])
     n = len(row) + 1
@@ -33,6 +36,7 @@ def followed(folds, beside=2.0, chosen=6, turn=0.0, part_of_gap=0):
     kind = np.full(len(fold), INTERIOR, np.uint8)
     crease = np.flatnonzero(in_row)
     kind[crease[:chosen]] = kind[crease[chosen + len(folds) :]] = CREASE
+    kind[next_row & crease_beside] = CREASE
     found = fading_edges(kind, facts, triangles, np.cos(np.radians(fold)), points)
     assert found == crease[chosen : chosen + len(found)].tolist()
     return len(found)
@@ -47,6 +51,15 @@ def test_it_goes_on_while_it_stands_out():
 def test_it_does_not_go_on_in_a_facet_of_a_curved_face():
     assert followed([15, 15, 15]) == 0
     assert followed([25, 25, 25], beside=25) == 0
+
+
+def test_creases_beside_it_count_as_facets_do():
+    assert followed([28, 22, 16], beside=35, crease_beside=True) == 0
+
+
+def test_an_edge_much_longer_than_the_last_is_no_part_of_a_gap():
+    assert followed([2, 1, 2], chosen=90, part_of_gap=90, longer=2.5) == 3
+    assert followed([2, 1, 2], chosen=90, part_of_gap=90, longer=3.5) == 0
 
 
 def test_it_ends_where_hardly_a_fold_is_left():

@@ -10,17 +10,21 @@
 use super::flip;
 use super::plane::{area, side};
 
-/// Share of the way in one step: the first, and the least. A step after which triangles overlap is halved.
+/// Share of the way in one step: the largest, and the least. A step after which triangles overlap is halved; the next is
+/// twice as long again.
 const STEPS: [f64; 2] = [0.125, 1.0 / 4096.0];
 
-/// Flips edges so that no triangle is turned over in (u, v). False where that needs steps below the least.
+/// Steps that are tried, so that the time is that of so many looks at each triangle.
+const MOST_TRIES: usize = 100;
+
+/// Flips edges so that no triangle is turned over in (u, v). False where that needs steps below the least, or too many.
 ///
 /// `chart`: the same points in the chart, where no triangle is turned over.
 pub fn straighten(chart: &[[f64; 2]], uv: &[[f64; 2]], triangles: &mut Vec<[u32; 3]>) -> bool {
     let fit = [0, 1].map(|k| onto(range(chart, k), range(uv, k)));
     let mut places = chart.to_vec();
     let (mut passed, [mut step, least]) = (0.0, STEPS);
-    while passed < 1.0 {
+    for _ in 0..MOST_TRIES {
         let next = f64::min(passed + step, 1.0);
         for ((place, from), to) in places.iter_mut().zip(chart).zip(uv) {
             *place = if next < 1.0 { [0, 1].map(|k| (1.0 - next) * fit[k](from[k]) + next * to[k]) } else { *to };
@@ -31,13 +35,17 @@ pub fn straighten(chart: &[[f64; 2]], uv: &[[f64; 2]], triangles: &mut Vec<[u32;
         let over = |&[a, b, c]: &[u32; 3]| area(at(a), at(b), at(c)) <= 0.0 && side(at(a), at(b), at(c)) < 0.0;
         if !flipped.iter().any(over) {
             (*triangles, passed) = (flipped, next);
+            if passed >= 1.0 {
+                return true;
+            }
+            step = f64::min(2.0 * step, STEPS[0]);
         } else if step > least {
             step *= 0.5;
         } else {
             return false;
         }
     }
-    true
+    false
 }
 
 /// The least and the greatest of one coordinate.
