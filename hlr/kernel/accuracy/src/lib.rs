@@ -68,6 +68,9 @@ pub const OUTLINE_TANGENT_STEP: f64 = 0.05;
 pub const OUTLINE_CORNER: f64 = 20.0;
 /// Of the chord tolerance, of which an accuracy has ten: a wrinkle of a surface that rises by less is no outline.
 pub const OUTLINE_WRINKLE: f64 = 15.0;
+/// Of the chord tolerance: a triangle no higher than this may lie on either side of its own border, once its corners are
+/// rounded to the grid.
+pub const OUTLINE_FLAT: f64 = 0.25;
 /// Of the chord tolerance: a ridge of a surface that rises by less hides nothing of the valley behind it.
 pub const OUTLINE_VALLEY: f64 = 1.0;
 

@@ -16,6 +16,7 @@ use super::face::{Face, root};
 use super::refine::rise;
 use super::side::Side;
 use super::{Model, TIE};
+use hlr_accuracy::OUTLINE_FLAT;
 use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, sub, unit};
 use hlr_visibility::scan::own_faces::Beside;
 
@@ -107,7 +108,9 @@ fn dented(model: &Model, side: &Side) -> bool {
     }
     let [p, q, r] = model.triangles[side.triangle as usize].map(|v| model.points[v as usize]);
     let normal = cross(&sub(&q, &p), &sub(&r, &p));
-    dot(&normal, &model.sight(&p)) >= -WALL * length(&normal)
+    let longest = [sub(&q, &p), sub(&r, &p), sub(&r, &q)].iter().map(length).fold(0.0, f64::max);
+    // What is hardly high may be turned over by rounding.
+    length(&normal) <= OUTLINE_FLAT * model.chord * longest || dot(&normal, &model.sight(&p)) >= -WALL * length(&normal)
 }
 
 fn on_edge(model: &Model, e: usize, t: f64) -> Vector {
