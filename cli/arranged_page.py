@@ -9,6 +9,7 @@ import click
 from hlr.errors import OptionError
 from hlr.tables.projection_methods import PROJECTION_METHODS
 
+from .document_pages import without_template
 from .drawn_files import targets_of, write
 from .guard import start
 from .meter import meter
@@ -80,7 +81,7 @@ def draw_arranged_page(
             import hlr
 
             drawing = hlr.draw_arranged(source, method, list(views) or None, request, progress, **on_page)
-        tell_notes(drawing.notes, request.strict, told["quiet"])
+        tell_notes([*without_template([drawing], targets), *drawing.notes], request.strict, told["quiet"])
         (drawing,) = write([drawing], targets, out.put)
         if told["as_json"]:
             out.put(summary([drawing], targets))

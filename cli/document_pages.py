@@ -57,7 +57,7 @@ def draw_document_pages(
             if page is None:
                 targets = targets_of(outputs, source, _distinct(page_names(source)), format, told["as_json"])
             drawings = hlr.draw_pages(source, None if page is None else [page], request, progress)
-        notes = [*_without_template(drawings, targets), *(note for drawing in drawings for note in drawing.notes)]
+        notes = [*without_template(drawings, targets), *(note for drawing in drawings for note in drawing.notes)]
         tell_notes(notes, request.strict, told["quiet"])
         drawings = write(drawings, targets, out.put)
         if told["as_json"]:
@@ -66,7 +66,7 @@ def draw_document_pages(
         tell_written(written(drawing, row), told["quiet"])
 
 
-def _without_template(drawings: Sequence[Drawing], targets: Targets) -> list[Note]:
+def without_template(drawings: Sequence[Drawing], targets: Targets) -> list[Note]:
     """Notes on files that have the lines of a page without its template."""
     from hlr.drawing.notes import Note
 

@@ -46,7 +46,7 @@ CHANGED = 3
 )
 @click.option(
     "--view", "views", type=ViewName(), metavar="NAME|X,Y,Z", multiple=True,
-    help="As of hlr draw; may be repeated. Default: front, top, right, iso.",
+    help="As of hlr draw; may be repeated. Default: front, top, right, iso, or those of --arrange.",
 )  # fmt: skip
 @click.option(
     "--arrange",

@@ -52,6 +52,8 @@ def test_a_template_with_a_title(hlr_real, tmp_path):
     svg = (tmp_path / "a.svg").read_text("utf-8")
     assert 'width="420mm"' in svg
     assert ">Two = three<" in svg
+    done = hlr_real("draw", STEP, *page, "-o", "a.dxf")
+    assert 'warning: Page "third-angle": the template not drawn in a.dxf, which has the lines alone.' in done.err
 
 
 @pytest.mark.parametrize(
