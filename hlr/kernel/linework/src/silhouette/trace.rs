@@ -282,7 +282,11 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model) ->
         }
         pieces.extend(own.into_iter().map(|s| (link.face, s)));
     }
-    let closed = pieces.len() > 1 && pieces[0].1.from == pieces[pieces.len() - 1].1.to;
+    // Two curves that end in one apex are no closed one: the surface has no single normal there.
+    let outer = [walk.first(), walk.last()].map(|at| at.map(|&(i, backward)| (&links[i].ends, backward)));
+    let round =
+        matches!(outer, [Some((a, back)), Some((b, turned))] if a[usize::from(back)] == b[usize::from(!turned)]);
+    let closed = round && pieces.len() > 1 && pieces[0].1.from == pieces[pieces.len() - 1].1.to;
     pieces.retain(|(_, s)| length(&sub(&s.to, &s.from)) > 1e-6 * model.chord);
     if pieces.is_empty() {
         return Vec::new();
