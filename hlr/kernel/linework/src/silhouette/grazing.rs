@@ -78,7 +78,8 @@ pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], dents: &D
         let turning = found.iter().position(|(_, turns)| turns.len() > 1);
         for (at, (side, turns)) in found.iter().enumerate() {
             let Some(f) = turns.iter().rev().find(|turn| turn.0 <= range[0]).map(|turn| turn.1) else { continue };
-            if f == 0.0 {
+            let f = if f == 0.0 { beyond(model, e, side.triangle).unwrap_or(f) } else { f };
+            if f.abs() <= TIE {
                 continue;
             }
             let normals = range.map(|t| side.normal_at(t));
@@ -148,7 +149,8 @@ fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Be
     let [a, b] = model.edges[e].map(|v| model.points[v as usize]);
     let way = if forward { sub(&b, &a) } else { sub(&a, &b) };
     let concave = !model.smooth[e] && dot(&cross(&m, &n), &way) < 0.0;
-    let f = [dot(&m, &sight), dot(&n, &sight)];
+    let f = [(s, dot(&m, &sight)), (u, dot(&n, &sight))];
+    let f = f.map(|(triangle, f)| if f.abs() > WALL { f } else { beyond(model, e, triangle).unwrap_or(f) });
     let (front, back) = (f.iter().filter(|f| **f < -WALL).count(), f.iter().filter(|f| **f > WALL).count());
     match concave {
         false if front > 0 => Beside::Visible,
@@ -157,6 +159,14 @@ fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Be
         true if front == 2 => Beside::Visible,
         _ => Beside::Unknown,
     }
+}
+
+/// f of a face off its border: at the corner of its triangle that is not on the edge. A face that is edge-on along its
+/// border may be turned toward the viewer beside it, as half a ball is from above.
+fn beyond(model: &Model, e: usize, triangle: i32) -> Option<f64> {
+    let t = triangle as usize;
+    let k = model.triangles[t].iter().position(|corner| !model.edges[e].contains(corner))?;
+    Face::new(model, model.triangle_face[t])?.f(model.uv[model.corner[t][k] as usize])
 }
 
 /// f along an edge, at parameters from 0 to 1; 0 where there is no normal.
