@@ -211,7 +211,7 @@ def test_a_change_since_the_baseline_is_exit_code_3(hlr_batch):
     ("keys", "words"),
     [
         ("formats = ['svg', 'json']", "formats: a page of several views cannot be written as JSON"),
-        ("fit = 'A4'", "fit: the views of a page have one scale and stand in line: leave out the option fit"),
+        ("fit = 'A4'", "fit: only a view by itself has fit: leave out the option fit, or arrange."),
     ],
 )
 def test_what_an_arranged_page_cannot_have_is_refused_before_any_work(hlr_batch, keys, words):
