@@ -8,7 +8,7 @@ use hlr_accuracy::CURVE_STRAIGHT;
 
 const PLACES: usize = 8;
 /// Halvings of the interval around a turning point.
-const NARROWING: usize = 60;
+const HALVINGS: usize = 40;
 
 /// The parameters of both ends of the straight line that covers a whole piece, in the order of its range.
 pub fn straight(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<[f64; 2]> {
@@ -44,13 +44,19 @@ pub fn straight(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<[f64;
     if !points.iter().all(|p| off(p) <= CURVE_STRAIGHT * accuracy) {
         return None;
     }
-    // Extremes are turning points, bracketed by the neighbouring samples and narrowed down, or ends of the piece.
+    // Extremes are ends of the piece, or turning points: bracketed by the neighbouring samples, then halved by the sign of
+    // the slope.
+    let ahead = if range[0] < range[1] { 1.0 } else { -1.0 };
     let along = |t: f64| dot(&placed.on_paper(t)[0], &way);
     let refine = |i: usize, sign: f64| {
+        let rises = |t: f64| sign * ahead * dot(&placed.on_paper(t)[1], &way) > 0.0;
         let (mut low, mut high) = (t(i.max(1) - 1), t((i + 1).min(places)));
-        for _ in 0..NARROWING {
-            let (u, v) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
-            if sign * along(u) < sign * along(v) { low = u } else { high = v }
+        if (i == 0 && !rises(low)) || (i == places && rises(high)) {
+            return t(i);
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if rises(middle) { low = middle } else { high = middle }
         }
         let turning = 0.5 * (low + high);
         let end = i == 0 || i == places;

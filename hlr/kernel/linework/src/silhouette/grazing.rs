@@ -49,6 +49,9 @@ const WALL: f64 = 1e-6;
 /// Area as a share of the square of the longer side: the normal of a triangle with less is not reliable.
 const NEEDLE: f64 = 1e-9;
 
+/// Sine of the angle between two faces that lie on one another; rounding would decide which is above the other.
+const CUSP: f64 = 1e-5;
+
 /// Samples along an edge at which the direction of its faces is evaluated. A straight border of a twisted face is a
 /// single chord, however often the face turns over along it.
 const ASKED: usize = 8;
@@ -148,7 +151,7 @@ fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Be
     let forward = (0..3).any(|k| [corners[k], corners[(k + 1) % 3]] == model.edges[e]);
     let [a, b] = model.edges[e].map(|v| model.points[v as usize]);
     let way = if forward { sub(&b, &a) } else { sub(&a, &b) };
-    let concave = !model.smooth[e] && dot(&cross(&m, &n), &way) < 0.0;
+    let concave = !model.smooth[e] && is_concave(model, e, [s, u], [&m, &n], &way);
     let f = [(s, dot(&m, &sight)), (u, dot(&n, &sight))];
     let f = f.map(|(triangle, f)| if f.abs() > WALL { f } else { beyond(model, e, triangle).unwrap_or(f) });
     let (front, back) = (f.iter().filter(|f| **f < -WALL).count(), f.iter().filter(|f| **f > WALL).count());
@@ -159,6 +162,25 @@ fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Be
         true if front == 2 => Beside::Visible,
         _ => Beside::Unknown,
     }
+}
+
+/// Whether the material at an edge takes up more than half of a turn. way: the edge in the sense of the first triangle.
+fn is_concave(model: &Model, e: usize, triangles: [i32; 2], [m, n]: [&Vector; 2], way: &Vector) -> bool {
+    let turn = cross(m, n);
+    if length(&turn) > CUSP || dot(m, n) > 0.0 {
+        return dot(&turn, way) < 0.0;
+    }
+    // The faces lie on one another where they meet, and one bends away from the other. The outer normal of the first
+    // points up: a second face above it leaves a slot between them, one below it the thin end of a body.
+    let a = model.points[model.edges[e][0] as usize];
+    let height = triangles.map(|triangle| {
+        let corner = model.triangles[triangle as usize].into_iter().find(|v| !model.edges[e].contains(v));
+        let off = corner.map_or([0.0; 3], |v| sub(&model.points[v as usize], &a));
+        let across = cross(&off, way);
+        // A surface bends away by the square of the distance from the edge.
+        dot(&off, m) / dot(&across, &across)
+    });
+    height[0] < height[1]
 }
 
 /// f of a face off its border: at the corner of its triangle that is not on the edge. A face that is edge-on along its
