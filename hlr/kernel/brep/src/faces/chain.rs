@@ -12,6 +12,11 @@ pub const NEAR: f64 = 1e-3;
 /// Numbers of runs in order, each with its shift in (u, v).
 pub type Loop = Vec<(usize, [f64; 2])>;
 
+/// Whether two runs are the two directions of one edge.
+fn is_back(run: &Run, other: &Run) -> bool {
+    run.edge == other.edge && run.location == other.location && run.backward != other.backward
+}
+
 /// Loops of the runs of one wire.
 ///
 /// `extent`: extent of the face in u and v. `periods`: of u and v; 0 where there is none.
@@ -23,10 +28,14 @@ pub fn chained(runs: &[Run], extent: [f64; 2], periods: [f64; 2]) -> Result<Vec<
         [0, 1].map(|k| if periods[k] > 0.0 { ((a[k] - b[k]) / periods[k]).round() * periods[k] } else { 0.0 })
     };
     let plus = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
+    // On a closed surface, an edge that is walked in both directions is a seam.
+    let is_slit = |i: usize| periods == [0.0; 2] && runs.iter().any(|other| is_back(&runs[i], other));
     let mut left: Vec<usize> = (0..runs.len()).collect();
     let mut loops = Vec::new();
     while !left.is_empty() {
-        let begin = left.iter().position(|&i| !runs[i].degenerate).unwrap_or(0);
+        // From a slit, the loop would return to its start before it has walked around what the slit leads to.
+        let outside = left.iter().position(|&i| !runs[i].degenerate && !is_slit(i));
+        let begin = outside.or_else(|| left.iter().position(|&i| !runs[i].degenerate)).unwrap_or(0);
         let first = left.remove(begin);
         let [start, mut end] = runs[first].uv_ends();
         let (start_vertex, mut vertex) = (runs[first].ends[0], runs[first].ends[1]);
@@ -63,6 +72,8 @@ pub fn chained(runs: &[Run], extent: [f64; 2], periods: [f64; 2]) -> Result<Vec<
                 }
                 return Err(Fault::Open);
             };
+            // Another loop of this wire may hang on this one by a slit.
+            let closed = closed && !(near <= NEAR && is_slit(i));
             // A loop may return to its start shifted by whole periods: a band without a seam.
             if closed || (here && near > NEAR && gap(end, plus(start, turns(end, start))) <= NEAR) {
                 break;
