@@ -19,7 +19,8 @@ use super::outline::Outline;
 use super::plane::{precedes, side};
 use super::progress::Progress;
 
-/// Triangles, counterclockwise. None where chords meet outside their ends, lie upon one another, or have no length.
+/// Triangles, counterclockwise. None where chords meet outside their ends, lie upon one another, or have no length; and
+/// where loops touch, since two points of them are at one place.
 pub fn triangulate(outline: &Outline, steps: &Progress) -> Option<Vec<[u32; 3]>> {
     let points = &outline.uv;
     let mut order = Vec::with_capacity(points.len());
@@ -28,7 +29,6 @@ pub fn triangulate(outline: &Outline, steps: &Progress) -> Option<Vec<[u32; 3]>>
         if a == p || b == p {
             return None;
         }
-        // At one place, chords that end come first, then those that continue, then those that begin.
         let kind = match (precedes(&a, &p), precedes(&b, &p)) {
             (true, true) => Kind::End,
             (false, false) => Kind::Begin,
@@ -36,9 +36,10 @@ pub fn triangulate(outline: &Outline, steps: &Progress) -> Option<Vec<[u32; 3]>>
         };
         order.push((p, kind, i));
     }
-    order.sort_unstable_by(|a, b| {
-        a.0[0].total_cmp(&b.0[0]).then(a.0[1].total_cmp(&b.0[1])).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2))
-    });
+    order.sort_unstable_by(|a, b| a.0[0].total_cmp(&b.0[0]).then(a.0[1].total_cmp(&b.0[1])));
+    if order.windows(2).any(|pair| pair[0].0 == pair[1].0) {
+        return None;
+    }
     let mut sweep = Sweep::new(outline);
     for (_, kind, i) in order {
         steps.step();
@@ -51,7 +52,7 @@ pub fn triangulate(outline: &Outline, steps: &Progress) -> Option<Vec<[u32; 3]>>
     sweep.active.is_empty().then_some(sweep.triangles)
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy)]
 enum Kind {
     End,
     Pass,
@@ -109,18 +110,13 @@ impl<'a> Sweep<'a> {
             t if t < 0.0 => (p, a),
             _ => return None,
         };
-        let mut exact = true;
+        let mut on_chord = false;
         let place = self.active.partition_point(|&chord| {
-            let mut where_ = self.above(chord, p);
-            if where_ == 0.0 {
-                // The other chord begins at the same place: both chords of p are on one side of it.
-                let (one, other) = (self.above(chord, a), self.above(chord, b));
-                exact &= self.at(self.ends(chord).0) == self.at(p) && one * other >= 0.0 && one != other;
-                where_ = one + other;
-            }
-            where_ > 0.0
+            let above = self.above(chord, p);
+            on_chord |= above == 0.0;
+            above > 0.0
         });
-        if !exact {
+        if on_chord {
             return None;
         }
         if place % 2 == 1 {

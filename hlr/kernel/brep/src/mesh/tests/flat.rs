@@ -173,6 +173,30 @@ fn loops_that_touch_at_a_vertex() {
     meshed(&plane, &[outer, one, two, three], 0.1);
 }
 
+/// Two to four holes that share a corner, in all ways in which they can lie around it.
+#[test]
+fn holes_around_a_corner() {
+    let plane = surface(1, &[]);
+    let place = |direction: usize| {
+        let (angle, radius) = (direction as f64 * TAU / 16.0, [3.0, 4.0][direction % 2]);
+        [angle.cos(), angle.sin()].map(|c| (c * radius * 64.0).round() / 64.0)
+    };
+    // A bit for each of 16 directions: the sides of the holes at the corner, in turns begin and end.
+    for chosen in (1u32..1 << 16).filter(|chosen| matches!(chosen.count_ones(), 4 | 6 | 8)).step_by(13) {
+        let sides: Vec<usize> = (0..16).filter(|direction| chosen >> direction & 1 == 1).collect();
+        for turned in [0, 1] {
+            let sides: Vec<usize> =
+                sides[turned..].iter().copied().chain(sides[..turned].iter().map(|d| d + 16)).collect();
+            let hole = |ends: &[usize]| {
+                let rim = (ends[0]..=ends[1]).rev().map(|direction| place(direction));
+                [[0.0; 2]].into_iter().chain(rim).collect::<Vec<_>>()
+            };
+            let outer = frame([-10.0, -10.0], [20.0, 20.0], 1, 1);
+            meshed(&plane, &std::iter::once(outer).chain(sides.chunks(2).map(hole)).collect::<Vec<_>>(), 0.1);
+        }
+    }
+}
+
 #[test]
 fn a_slit() {
     let plane = surface(1, &[]);
