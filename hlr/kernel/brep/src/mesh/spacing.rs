@@ -9,7 +9,7 @@ use std::f64::consts::LN_2;
 use super::progress::Progress;
 use crate::geometry::jet::Jet;
 use crate::geometry::surface::Surface;
-use crate::geometry::vector::{along, cross, dot, length, unit};
+use crate::geometry::vector::{Vector, along, cross, dot, length, unit};
 use hlr_accuracy::{MESH_AIM, MESH_SHORTEST};
 
 /// Number of cells along u and v: at the start, and at most.
@@ -27,6 +27,8 @@ const TURN: f64 = 1.03;
 /// Largest angle in radians between the directions of coordinate lines at the ends of an edge. It limits edges near a
 /// pole.
 const FAN: f64 = 0.8;
+/// How far a step along a coordinate line may stray from the line within the surface, as a share of the step across it.
+const STRAY: f64 = 0.25;
 
 /// Rounds of fitting the chart to the spacings.
 const FITS: usize = 4;
@@ -167,8 +169,9 @@ fn sampled(
     let whole = [0, 1].map(|k| lines[k][counts[k]] - lines[k][0]);
     let at = |u: f64, v: f64| {
         steps.step();
-        let wanted = spacing(&surface.jet([u, v]), deflection, angle);
-        [0, 1].map(|k| wanted[k].min(whole[k]))
+        let jet = surface.jet([u, v]);
+        let wanted = spacing(&jet, deflection, angle);
+        within_strips(&jet, [0, 1].map(|k| wanted[k].min(whole[k])), deflection)
     };
     let row = |u: f64| lines[1].iter().map(|&v| at(u, v)).collect::<Vec<_>>();
     let mut out = Vec::with_capacity(counts[0] * counts[1]);
@@ -218,6 +221,19 @@ fn spacing(jet: &Jet, deflection: f64, angle: f64) -> [f64; 2] {
         (square / form).sqrt().min(TURN * angle / turn[k]).min(FAN / fan[k]).max(shortest)
     };
     [side(0, a, e), side(1, b, g)]
+}
+
+/// The spacings, shortened where a coordinate line bends within the surface: a step along it strays from the line by no
+/// more than a share of the step across it. Else a triangle could leave a thin strip that bends in its own plane.
+fn within_strips(jet: &Jet, size: [f64; 2], deflection: f64) -> [f64; 2] {
+    let (e, g) = (dot(&jet.du, &jet.du), dot(&jet.dv, &jet.dv));
+    let Some(n) = unit(&cross(&jet.du, &jet.dv)) else { return size };
+    let limit = |bend: &Vector, way: &Vector, square: f64, across: f64| {
+        let aside = dot(bend, &cross(&n, way)).abs() / square.sqrt();
+        (8.0 * (STRAY * across).max(deflection) / aside).sqrt()
+    };
+    let across = [size[0] * e.sqrt(), size[1] * g.sqrt()];
+    [size[0].min(limit(&jet.duu, &jet.du, e, across[1])), size[1].min(limit(&jet.dvv, &jet.dv, g, across[0]))]
 }
 
 /// Slopes of the chart: g(v) / f(u) fits the ratio of spacings as closely as such a product can, by least squares of
