@@ -19,7 +19,7 @@ use crate::shapes::Face;
 const MOST_ROUNDS: usize = 12;
 /// Limit on the rounds for a face without a proof of its chord error: either its chords or its surface may be the
 /// reason.
-const ROUNDS_UNCERTIFIED: usize = 3;
+const ROUNDS_UNCERTIFIED: usize = 6;
 /// Points of all edges, and of all faces: 16 million triangles, about 4 GB of a drawing.
 pub const MOST_POINTS: usize = 8_000_000;
 /// Chord error by the size of a face: below it, the wish is the reason that a face needs too many points. Above it, its
