@@ -13,6 +13,9 @@ use crate::model::Model;
 use crate::shapes::{Face, Use, Vertex};
 use hlr_accuracy::CHORD_MOST;
 
+/// Share of the face's extent in (u, v) below which two points of one node are one point.
+const SAME: f64 = 1e-6;
+
 /// A point that faces share, as one face sees it: a vertex, or a corner inside an edge's polyline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
@@ -122,6 +125,7 @@ pub fn border(model: &Model, face: &Face, polylines: &[Option<Polyline>], deflec
         }
     }
     together(&mut out.loops);
+    unite(&mut out.loops, out.nodes.len(), extent);
     if out.loops.loops.is_empty() { Err(Fault::Open) } else { Ok(out) }
 }
 
@@ -137,6 +141,22 @@ fn node(run: &Run, corner: usize, last: usize) -> Node {
         Node::Vertex(run.ends[1])
     } else {
         Node::Edge(run.edge, run.location, if run.backward { last - corner } else { corner } as u32)
+    }
+}
+
+/// Puts the points of one node, where loops touch, at one place in (u, v): curves in (u, v) end there only nearly.
+fn unite(loops: &mut FaceLoops, nodes: usize, extent: [f64; 2]) {
+    if loops.loops.iter().map(Vec::len).sum::<usize>() == nodes {
+        return;
+    }
+    let mut first: Vec<Option<[f64; 2]>> = vec![None; nodes];
+    for point in loops.loops.iter_mut().flatten() {
+        let place = *first[point.node as usize].get_or_insert(point.uv);
+        let turns = whole_turns(point.uv, place, loops.periods);
+        let place = [place[0] + turns[0], place[1] + turns[1]];
+        if (0..2).all(|k| (point.uv[k] - place[k]).abs() <= SAME * extent[k]) {
+            point.uv = place;
+        }
     }
 }
 
