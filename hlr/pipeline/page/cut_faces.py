@@ -2,79 +2,35 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hlr.source.freecad.hatch_strokes import inside, strokes_within
+from hlr.linework.cut_faces import CutFace, cut_faces, nearness
+from hlr.linework.hatch_strokes import inside, strokes_within
 
 if TYPE_CHECKING:
-    from hlr.common.types import Floats, Ints
+    from hlr.common.types import Floats
     from hlr.pipeline.page.placed_view import PlacedView
     from hlr.source.freecad.hatch import Hatch
 
-NEAR = 1e-7
-"""Of the size of a model: faces that lie so close to the plane of a section lie on it."""
-
 TURN = 0.2
 """Radians: how much a chord may turn."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class CutFace:
-    """A face on the plane of a section, by its border. points (n, 3): of the model; loops: into points."""
-
-    points: Floats
-    loops: list[Ints]
 
 
 def cut_faces_of(placed: PlacedView) -> list[CutFace]:
     """The faces that the last cut of a section has made."""
     cut = placed.view.cuts[-1]
     normal = np.array(cut.normal) / float(np.linalg.norm(cut.normal))
-    low, high = placed.source.bounds()
-    near = NEAR * float(np.linalg.norm(high - low)) + NEAR
-    found = []
-    for part in placed.source.mesh(placed.drawing.accuracy.deflection, TURN).parts:
-        on = np.abs((part.points - np.array(cut.origin)) @ normal) <= near
-        flat = on[part.triangles].all(axis=1)
-        for face in np.flatnonzero(np.bincount(part.triangle_face[flat], minlength=len(part.face_planar))).tolist():
-            own = part.triangles[flat & (part.triangle_face == face)]
-            a, b, c = part.points[own].transpose(1, 0, 2)
-            if np.cross(b - a, c - a).sum(axis=0) @ normal > 0.0:
-                found.append(CutFace(part.points, _loops(own)))
-    return found
-
-
-def _loops(triangles: Ints) -> list[Ints]:
-    """The border of triangles (m, 3) that meet edge to edge, as loops in their sense."""
-    sides = {(a, b) for t in triangles.tolist() for a, b in zip(t, (*t[1:], t[0]), strict=True)}
-    onward: dict[int, list[int]] = {}
-    for a, b in sorted(sides):
-        if (b, a) not in sides:
-            onward.setdefault(a, []).append(b)
-    loops = []
-    while onward:
-        first = at = next(iter(onward))
-        loop = []
-        while at in onward:
-            loop.append(at)
-            following = onward[at]
-            then = following.pop()
-            if not following:
-                del onward[at]
-            at = then
-            if at == first:
-                break
-        loops.append(np.array(loop))
-    return loops
+    near = nearness(placed.source.bounds())
+    parts = placed.source.mesh(placed.drawing.accuracy.deflection, TURN).parts
+    return list(cut_faces(parts, np.array(cut.origin), normal, near))
 
 
 def filling(placed: PlacedView, faces: list[CutFace], height: float) -> str | None:
     """What fills the cut faces of a section, as SVG; None: its hatch has too many strokes. height: of the page."""
     asked = placed.view.cut_faces
-    on_page = [[placed.on_page(face.points[loop]) for loop in face.loops] for face in faces]
+    on_page = [[placed.on_page(border) for border in face.borders] for face in faces]
     if asked.hatch is not None:
         return _hatched(placed, asked.hatch, on_page, height)
     if not asked.color:

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hlr.drawing.view_marks import BEYOND, LETTER, border_circle, detail_circle, section_line
 from hlr.pipeline.page.placed_view import lines_on_page
-from hlr.source.freecad.view_marks import BEYOND, LETTER, border_circle, detail_circle, section_line
 
 if TYPE_CHECKING:
     from hlr.common.types import Floats
-    from hlr.pipeline.page.cut_faces import CutFace
+    from hlr.linework.cut_faces import CutFace
     from hlr.pipeline.page.placed_view import PlacedView
 
 EDGE_ON = 1e-6
@@ -94,7 +94,7 @@ def _reach(faces: Sequence[CutFace], origin: Floats, along: Floats) -> Floats:
     """(2,) from where to where the cut faces reach along the section line, model units."""
     if not faces:
         return np.zeros(2)
-    points = np.concatenate([face.points[loop] for face in faces for loop in face.loops])
+    points = np.concatenate([border for face in faces for border in face.borders])
     heights = (points - origin) @ along
     return np.array([heights.min(), heights.max()])
 

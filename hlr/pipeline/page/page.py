@@ -12,7 +12,8 @@ from hlr.drawing.notes import Note
 from hlr.drawing.page import Page
 from hlr.drawing.sheet import Sheet, SheetView
 from hlr.errors import SourceError
-from hlr.pipeline.page.cut_faces import CutFace, cut_faces_of, filling
+from hlr.linework.cut_faces import CutFace
+from hlr.pipeline.page.cut_faces import cut_faces_of, filling
 from hlr.pipeline.page.marks import mark_of
 from hlr.pipeline.page.placed_view import PlacedView, lines_on_page, placed_view
 from hlr.pipeline.page.sources import Sources

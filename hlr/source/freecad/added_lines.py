@@ -6,7 +6,7 @@ import math
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
-from hlr.source.freecad.annotations import Point
+from hlr.drawing.view_marks import Point
 from hlr.source.freecad.properties import child_number, child_points, child_text
 
 DASHES = {2: (4.0, 2.0), 3: (1.0, 2.0), 4: (4.0, 2.0, 1.0, 2.0), 5: (4.0, 2.0, 1.0, 2.0, 1.0, 2.0)}

@@ -8,14 +8,8 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from hlr.common.text_width import text_width
+from hlr.drawing.view_marks import ARROW, FONT, HALF_ARROW, Point
 from hlr.source.freecad.document import Object
-
-Point = tuple[float, float]
-
-FONT = "osifont, Arial, Helvetica, sans-serif"
-
-ARROW, HALF_ARROW = 5.0, 0.85
-"""Millimetres: how long an arrow is, and half its width."""
 
 
 def annotation(thing: Object, height: float) -> str:

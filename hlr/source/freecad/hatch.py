@@ -17,6 +17,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from hlr.common.types import Floats
+from hlr.drawing.hatch_pattern import Row, Tiles
 from hlr.source.freecad.document import Object
 from hlr.source.freecad.properties import Properties
 from hlr.source.freecad.template import safe_svg
@@ -26,27 +27,6 @@ TILE = 64.0
 
 MOST_IN_TILE, CHORDS = 2_000, 12
 """Strokes of one tile, and those that a curve of it becomes."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Row:
-    """Parallel lines. Millimetres, y up.
-
-    origin, direction, offset (2,): of one line, along it, and to the next one; dashes: lengths, gaps below zero
-    """
-
-    origin: Floats
-    direction: Floats
-    offset: Floats
-    dashes: tuple[float, ...]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Tiles:
-    """Strokes that are repeated. strokes (n, 2, 2): ends, mm, y up; steps (2, 2): to the next tile, right and up."""
-
-    strokes: Floats
-    steps: Floats
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from hlr.source.freecad.annotations import Point, annotation, balloon, dimension_text, frame, leader
+from hlr.drawing.view_marks import Point
+from hlr.source.freecad.annotations import annotation, balloon, dimension_text, frame, leader
 from hlr.source.freecad.document import Object
 from hlr.source.freecad.rich_text import rich_text
 from hlr.source.freecad.symbols import symbol

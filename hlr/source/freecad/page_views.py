@@ -8,10 +8,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from hlr.drawing.view_marks import Mark
 from hlr.source.freecad.document import Object
 from hlr.source.freecad.hatch import CutFaces, cut_faces
 from hlr.source.freecad.properties import Properties, Vector
-from hlr.source.freecad.view_marks import Mark, detail_mark, section_mark
+from hlr.source.freecad.view_marks import detail_mark, section_mark
 
 
 @dataclass(frozen=True, slots=True)

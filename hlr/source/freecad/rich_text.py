@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from hlr.common.text_width import text_width
-from hlr.source.freecad.annotations import FONT, Point
+from hlr.drawing.view_marks import FONT, Point
 from hlr.source.freecad.document import Object
 
 MM_PER_POINT = 25.4 / 72.0

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from hlr.common.types import Floats
-from hlr.source.freecad.hatch import Row, Tiles
+from hlr.drawing.hatch_pattern import Row, Tiles
 
 MOST_STROKES = 100_000
 """Of one section."""

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from hlr.source.freecad import hatch_strokes
-from hlr.source.freecad.hatch import Row
-from hlr.source.freecad.hatch_strokes import inside, strokes_within
+from hlr.drawing.hatch_pattern import Row
+from hlr.linework import hatch_strokes
+from hlr.linework.hatch_strokes import inside, strokes_within
 
 SQUARE = np.array([(0, 0), (10, 0), (10, 10), (0, 10)], float)
 HOLE = np.array([(3, 3), (3, 7), (7, 7), (7, 3)], float)
