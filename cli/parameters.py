@@ -45,6 +45,28 @@ class ViewName(click.ParamType[str | Vector3]):
         return vector
 
 
+class SectionPlane(click.ParamType[tuple[str, bool | float | Vector3]]):
+    """A view that is cut, and where: front is front@middle; front@12.5, at a coordinate; front@0,12.5,0, at a point."""
+
+    name = "VIEW[@PLACE]"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[str, bool | float | Vector3]:
+        """The name of the view, or its direction as text, and True, a coordinate or a point."""
+        text, at, where = str(value).partition("@")
+        view = ViewName().convert(text, param, ctx)
+        name = view if isinstance(view, str) else ",".join(f"{c:g}" for c in view)
+        if not at or where.strip().lower() == "middle":
+            return name, True
+        place = vector_of(where) if "," in where else number_of(where)
+        if place is None:
+            self.fail(
+                f"{value!r} names no plane: give {text}, {text}@12.5 in millimetres, or {text}@0,12.5,0", param, ctx
+            )
+        return name, place
+
+
 class Scale(click.ParamType[float]):
     """Paper to model: 1:2, 0.5 or 2."""
 

@@ -199,6 +199,12 @@ ROWS: tuple[Row, ...] = (
         "draw",
         refused=True,
     ),
+    Row(
+        ("uncut",),
+        _without("section", "is for --section: leave it out, or say what is cut"),
+        "draw",
+        refused=True,
+    ),
     Row(("view", "no_cache"), _without("source", "is for a model: name one, or leave it out"), "methods", refused=True),
     Row(("coarse", "time_limit"), _without("against", "is for --against: leave it out"), "compare", refused=True),
     Row(_DRAWS, _with("init", "is for a batch, and --init draws none: leave it out"), "batch", refused=True),

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from hlr.drawing.page import Page
     from hlr.drawing.picture import Picture
     from hlr.drawing.saving import Format
+    from hlr.drawing.section import Section
     from hlr.errors import HlrError, OptionError, SourceError, StrictError, ViewError, WriteError
     from hlr.lab import methods as surfaces
     from hlr.lab import study
@@ -62,6 +63,7 @@ _HOME = {
     "Picture": "hlr.drawing.picture",
     "PreviewOptions": "hlr.request.picture_effects",
     "PreviewWishes": "hlr.request.picture_effects",
+    "Section": "hlr.drawing.section",
     "SourceError": "hlr.errors",
     "StrictError": "hlr.errors",
     "Style": "hlr.request.style",
@@ -118,6 +120,7 @@ __all__ = [
     "Picture",
     "PreviewOptions",
     "PreviewWishes",
+    "Section",
     "SourceError",
     "StrictError",
     "Style",

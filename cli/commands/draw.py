@@ -10,6 +10,7 @@ import click
 
 from hlr.errors import OptionError
 from hlr.tables.line_classes import optional
+from hlr.tables.projection_methods import PROJECTION_METHODS
 from hlr.tables.writers import WRITERS, formats
 
 from ..arranged_page import ARRANGE, draw_arranged_page
@@ -18,6 +19,7 @@ from ..drawn_files import Targets, targets_of, to_stdout, write
 from ..guard import start
 from ..meter import meter
 from ..parameters import Duration, Vector3
+from ..section_options import SECTION, with_sections
 from ..streams import Output, result_only
 from ..style_options import STYLE, style_from
 from ..telling import summary, tell_early, tell_notes, tell_plan, tell_report, tell_written, written
@@ -84,7 +86,7 @@ LINES: tuple[Callable[[Command], Command], ...] = (
     "{n} stand for the source, the view and its number. Default: {stem}.svg in this folder.",
 )
 @VIEW
-@options(*CHOICE, *LINES)
+@options(*CHOICE, *LINES, *SECTION)
 @options(*SIZE, WINDOW)
 @options(*ARRANGE)
 @click.option(
@@ -133,6 +135,7 @@ def draw(
       hlr draw part.step -o part.svg
       hlr draw part.step -o "{stem}-{view}.pdf" --view front --view top --view right
       hlr draw part.step -o part.pdf --arrange third-angle
+      hlr draw part.step -o part.svg --section front
       hlr draw part.stl --view -1,1,1 --scale 1:2 -o - > part.svg
 
     A CadQuery or build123d script is run to get its model.
@@ -140,8 +143,12 @@ def draw(
     arrange: Method | None = chosen.pop("arrange")
     printed = {name: chosen.pop(name) for name in ("template", "texts", "room")}
     time_limit = chosen.pop("time_limit")
+    sections = chosen["section"]
+    chosen["section"] = sections or None
     told = {"as_json": as_json, "quiet": quiet, "time_limit": time_limit}
     if arrange is not None:
+        if sections:
+            views = with_sections(views, sections, PROJECTION_METHODS[arrange].usual)  # type: ignore[arg-type]
         _check_arranged(all_pages or names_a_page(source, chosen["page"]), explain)
         request = request_of(style=style_from(chosen), **chosen)
         draw_arranged_page(source, outputs, arrange, views, format, request, printed, told)
@@ -153,6 +160,8 @@ def draw(
         draw_document_pages(source, outputs, page, format, asked, told)
         return
     started = time.perf_counter() - time.process_time()  # the time of loading counts as well
+    if sections:
+        views = with_sections(views, sections, ())
     names = names_of(views, chosen["eye"])
     views = views or ("iso",)
     style = style_from(chosen)

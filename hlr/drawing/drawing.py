@@ -16,6 +16,7 @@ from hlr.drawing.notes import Note
 from hlr.drawing.page import Page
 from hlr.drawing.saving import render, write
 from hlr.drawing.scale import ratio
+from hlr.drawing.section import Section
 from hlr.drawing.sheet import Sheet
 from hlr.request.style import Style
 
@@ -99,6 +100,7 @@ class Drawing(ByValue):
     reached   the errors that were measured; None unless asked for
     plan      for each effect whether it was on, why, and what it cost
     window    the rectangle on paper at which lines and fill were cut; None: nothing was cut
+    section   the plane by which the model was cut; None: it was not
     page      the page, and where the drawing lies on it; None: the file is as large as the drawing or its window
     sheet     the views, where there are several; then `view` and `origin` are those of the page, which say nothing of
               the model; `scale` is that of all views, or 1 where each has its own
@@ -134,6 +136,7 @@ class Drawing(ByValue):
     reached: Reached | None = None
     plan: Sequence[Decision] = ()
     window: Bounds | None = None
+    section: Section | None = None
     page: Page | None = None
     sheet: Sheet | None = None
     style: Style = field(default_factory=Style)

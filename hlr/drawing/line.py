@@ -44,10 +44,11 @@ class Bounds(NamedTuple):
 class Line(ByValue):
     """One visible or hidden piece of one edge. Lines are equal where all their fields are, number by number.
 
-    kind     the name of a class in `hlr.tables.line_classes`: sharp, smooth, seam, outline, boundary or intersection
+    kind     the name of a class in `hlr.tables.line_classes`: sharp, smooth, seam, outline, boundary, intersection or
+             hatch, of a cut face
     part     index into Drawing.parts
     edge     index in the part's TopExp edge map; None for meshes and outlines
-    face     index in the part's TopExp face map for outlines; else None
+    face     index in the part's TopExp face map for outlines and hatches; else None
     points   (n, 2) millimetres on paper, y up; along a curve within the accuracy
     points3  (n, 3) model coordinates, same count
     curve    the exact curve on paper, in millimetres; None: the polyline of its points

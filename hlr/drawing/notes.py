@@ -24,6 +24,7 @@ NoteCode = Literal[
     "page-too-small",
     "room-unknown",
     "nothing-in-view",
+    "section-not-hatched",
     "over-time",
     "script-shape",
     "stray-parts",
@@ -54,6 +55,7 @@ CODES: dict[NoteCode, str] = {
     "page-too-small": "at the scale that was asked for, the drawing is larger than its page inside the margins",
     "room-unknown": "the template of a page does not say where views may lie: they may lie on its title block",
     "nothing-in-view": "there is not a line in the drawing",
+    "section-not-hatched": "the plane of a section only touches the model, or cuts parts that are not closed",
     "over-time": "reading and the coarsest drawing took longer than the time that was given",
     "script-shape": "which of its shapes a script has shown, or is taken to have meant",
     "stray-parts": "a few parts far from the rest make the drawing several times as large",
@@ -80,6 +82,7 @@ REMARKS: frozenset[NoteCode] = frozenset(
         "paper-size",
         "room-unknown",
         "script-shape",
+        "section-not-hatched",
         "stray-parts",
         "thin-lines",
     }

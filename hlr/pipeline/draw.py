@@ -33,6 +33,16 @@ def draw_views(
     if not views:
         return []
     with at_most(options.threads):
+        if options.section is not None:
+            from hlr.pipeline.section.draw import draw_sections
+            from hlr.request.section import check_sections
+
+            check_sections(options.section, views)
+            drawings = draw_sections(source, views, options, progress, noted)
+            for drawing in drawings:
+                if options.strict:
+                    refuse_warnings(drawing.notes)
+            return drawings
         session = Session(source, views, options, progress)
         if noted is not None:
             noted([note for placement in session.placements for note in placement.notes])

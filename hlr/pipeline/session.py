@@ -40,7 +40,7 @@ from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options, Request, View
 from hlr.scene.build import build
 from hlr.scene.scene import Scene
-from hlr.source.model import Appearance, Source, Tessellation
+from hlr.source.model import Appearance, PartMesh, Source, Tessellation
 from hlr.source.selection import open_selected
 from hlr.visibility.plan import Plan, decide
 from hlr.visibility.segments import solve
@@ -66,13 +66,14 @@ class Session:
     """A source before its cameras.
 
     source, bounds (2, 3); cameras and placements, one per view; clock: seconds by stage. The scene, the curves of its
-    edges and the looks of its parts are there once `drafts` was called.
+    edges and the looks of its parts are there once `drafts` was called; of a section, so are the meshes of its parts.
     """
 
     scene: Scene
     edge_curves: EdgeCurveLookup
     looks: Mapping[str, Appearance]
     remarks: Sequence[Note]
+    parts: Sequence[PartMesh]
 
     def __init__(
         self,
@@ -146,6 +147,7 @@ class Session:
         for draft in drafts:
             note_rescue(draft.planner, self.scene, meshed)
         self.edge_curves = meshed.edge_curves
+        self.parts = meshed.parts if self.options.section is not None else ()
         self.looks = self.source.appearances() if self.source.transparent() else {}
         self.remarks = [] if self.options.see_through else hiding(self.scene, self.looks)
         return drafts

@@ -10,6 +10,7 @@ from hlr.common.keywords import expect_record
 from hlr.common.threads import at_most
 from hlr.common.types import Progress
 from hlr.drawing.line import Bounds
+from hlr.errors import OptionError
 from hlr.pipeline.session import Session
 from hlr.request.check import checked, checked_views
 from hlr.request.effect import Decision
@@ -42,6 +43,8 @@ def plan_views(
     '1 curved face may show one'
     """
     options = checked(expect_record(Options, options, "plan_views"))
+    if options.section is not None:
+        raise OptionError("a plan is that of a whole model: leave out section")
     views = checked_views(views, options)
     if not views:
         return []

@@ -63,9 +63,18 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
         raise OptionError(f"within needs a positive number of seconds, not {_shown(within)}")
     if options.see_through and options.report:
         raise OptionError("report measures what all parts hide: leave it out, or see_through")
+    if options.section is not None:
+        from hlr.request.section import checked_section
+
+        options = replace(options, section=checked_section(options.section))
+        for name in ("perspective", "report"):
+            if options.section is not None and getattr(options, name):
+                raise OptionError(f"a section has no {name}: leave out {name}, or section")
+    elif options.uncut:
+        raise OptionError("uncut is for parts of a section: give section as well, or leave it out")
     if options.window is not None:
         _window(options.window)
-    for name in ("only", "hide"):
+    for name in ("only", "hide", "uncut"):
         patterns = getattr(options, name)
         if isinstance(patterns, str) or not _is_strings(patterns):
             raise OptionError(f"{name} needs a list of names or patterns of parts, not {patterns!r}")

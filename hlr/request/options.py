@@ -21,6 +21,12 @@ View = ViewName | Sequence[float]
 Parameter = bool | int | float | str
 """A value for a variable of a script."""
 
+SectionPlace = bool | float | Vector
+"""Where a view is cut: True for the middle, a coordinate, or a point on the plane (`hlr.request.section`)."""
+
+SectionLike = SectionPlace | Mapping[str, SectionPlace]
+"""Where all views are cut, or some of them, by name."""
+
 
 @dataclass(frozen=True, slots=True)
 class Perspective:
@@ -44,7 +50,7 @@ class Perspective:
 class Options:
     """What is asked of a drawing. Lengths are millimetres on paper unless said otherwise.
 
-    hidden       draw hidden lines; None: in views along an axis of the model, not in pictorial ones
+    hidden       draw hidden lines; None: in views along an axis of the model, not in pictorial ones and sections
     smooth       draw tangent (G1) edges, thin; None: in pictorial views (oblique or in perspective), not in others
     seam         draw the seams of closed surfaces
     intersections  draw the lines in which surfaces pass through one another
@@ -61,6 +67,11 @@ class Options:
     crease       degrees: where a mesh without B-rep folds more than this, an edge is drawn
     circles      creases and borders of a mesh become circles where every vertex lies on one within the accuracy, and
                  neighbours are less than the crease angle (and 45 degrees) apart
+    section      cut the model by a plane across the view, and take away what lies before it: True for the middle of the
+                 model; a number, the coordinate on the axis that the view looks along; a point on the plane, all in
+                 millimetres in the world, as an eye; or these by the names of the views that are cut:
+                 {"front": True, "left": 12.5}. Cut faces are hatched
+    uncut        patterns of parts that sections leave whole, as bolts, shafts and ribs are by custom
     up           the direction that points up on paper; None: the named view's own, else z (y for views along z)
     perspective  None: orthographic
     see_through  parts that their file says are transparent hide nothing; else they hide like all others
@@ -99,6 +110,8 @@ class Options:
     accuracy: float | None = None
     crease: float = 30.0
     circles: bool = False
+    section: SectionLike | None = field(default=None, hash=False)
+    uncut: tuple[str, ...] = ()
     up: Vector | None = None
     perspective: Perspective | None = None
     see_through: bool = False
@@ -132,6 +145,8 @@ class Wishes(TypedDict, total=False):
     accuracy: float | None
     crease: float
     circles: bool
+    section: SectionLike | None
+    uncut: tuple[str, ...]
     up: Vector | None
     perspective: Perspective | None
     see_through: bool

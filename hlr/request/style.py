@@ -30,7 +30,8 @@ class LineRule:
     """How some lines are drawn: which, and what differs there. What is None stays as a more general rule says.
 
     visible  only visible lines, or only hidden ones; None: both
-    kind     only lines of this class: sharp, smooth, seam, outline, boundary or intersection; None: all
+    kind     only lines of this class: sharp, smooth, seam, outline, boundary, intersection or hatch; None:
+             all
     parts    only lines of parts that match this pattern, which reads as those of `Options.only`; None: all
     width    millimetres, or one of the two widths of the style: wide, narrow
     color    a CSS name, #rrggbb, or currentColor
@@ -79,8 +80,10 @@ STANDARD = (
     LineRule(visible=False, width="narrow", dash=(12.0, 3.0)),
     LineRule(kind="smooth", width="narrow"),
     LineRule(kind="seam", width="narrow"),
+    LineRule(kind="hatch", width="narrow"),
 )
-"""ISO 128: visible edges and outlines continuous and wide, hidden ones dashed and narrow, tangent edges narrow."""
+"""ISO 128: visible edges and outlines continuous and wide, hidden ones dashed and narrow, tangent edges and hatches
+narrow."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -56,9 +56,8 @@ def open_selected(thing: Any, options: PartSelection) -> Source:
     if not (only or hide) or getattr(source, "choice", None) == (only, hide):
         return source
     names = source.names()
-    above = source.assemblies() if isinstance(source, _InAssemblies) else {}
-    kept = set(names) if not only else _matching(only, names, above, "only")
-    kept -= _matching(hide, names, above, "hide")
+    kept = set(names) if not only else matching(only, source, "only")
+    kept -= matching(hide, source, "hide")
     if not kept:
         fewer = "do not hide its only part" if len(names) == 1 else f"hide fewer of its {len(names)} parts"
         raise OptionError(f"Of {source.name} no part would be left: {fewer}.")
@@ -73,13 +72,13 @@ class _InAssemblies(Protocol):
         """By the names of parts, the assemblies that they are in."""
 
 
-def _matching(
-    patterns: Sequence[str], names: Sequence[str], above: Mapping[str, Sequence[str]], option: str
-) -> set[str]:
-    """Names of parts that match any of the patterns, or are in an assembly that does.
+def matching(patterns: Sequence[str], source: Source, option: str) -> set[str]:
+    """Names of parts of a source that match any of the patterns, or are in an assembly that does.
 
-    above: the assemblies of each part. Raises OptionError for a pattern that matches none.
+    Raises OptionError for a pattern that matches none.
     """
+    names = source.names()
+    above = source.assemblies() if isinstance(source, _InAssemblies) else {}
     found: set[str] = set()
     for pattern in patterns:
         some = {name for name in names if any(matches(each, pattern) for each in (name, *above.get(name, ())))}

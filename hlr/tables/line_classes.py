@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-Kind = Literal["sharp", "smooth", "seam", "outline", "boundary", "intersection"]
+Kind = Literal["sharp", "smooth", "seam", "outline", "boundary", "intersection", "hatch"]
 """The name of a line's class, for type checkers: `Line.kind`, "class" in JSON, the class of a group in SVG."""
 
 
@@ -32,6 +32,7 @@ class EdgeClass(IntEnum):
     BOUNDARY = 3
     OUTLINE = 4
     INTERSECTION = 5
+    HATCH = 6
 
 
 INTERIOR = 255
@@ -118,6 +119,7 @@ LINE_CLASSES: Table[LineClass] = Table(
             help="Lines where surfaces pass through each other. Default: on.",
             counter="intersection_lines",
         ),
+        LineClass(EdgeClass.HATCH, "hatch", "hatch lines", rank=48, place=-1),
     )
 )
 """All classes, by name."""

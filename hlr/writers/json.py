@@ -34,6 +34,7 @@ def document(drawing: Drawing) -> bytes:
         "scale": float(drawing.scale),
         "origin": _numbers(drawing.origin),
         **({} if drawing.window is None else {"window": _numbers(drawing.window)}),
+        **({} if drawing.section is None else {"section": asdict(drawing.section)}),
         **({} if drawing.page is None else {"page": asdict(drawing.page)}),
         "model": {"unit": float(drawing.unit), "up_axis": _numbers(drawing.up_axis)},
     }

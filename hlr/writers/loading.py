@@ -17,6 +17,7 @@ from hlr.drawing.fill import Fill
 from hlr.drawing.line import Bounds, Line
 from hlr.drawing.notes import Note
 from hlr.drawing.page import Page
+from hlr.drawing.section import Section
 from hlr.errors import OptionError, SourceError
 from hlr.request.effect import Decision
 from hlr.request.style import LineRule, Style
@@ -114,6 +115,7 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         style=_style(document.get("style", {})),
         group=revived(tuple[float, float] | None, document.get("group"), "group"),
         window=None if document.get("window") is None else Bounds(*revived(Box, document["window"], "window")),
+        section=revived(Section | None, document.get("section"), "section"),
         page=revived(Page | None, document.get("page"), "page"),
         plan=tuple(_decision(d, seconds, f"plan[{i}]") for i, d in enumerate(_objects(document["plan"], "plan"))),
     )

@@ -136,9 +136,10 @@ def title(drawing: Drawing) -> str:
 def description(drawing: Drawing) -> str:
     """What a reader who does not see the drawing is told."""
     seen = held(drawing.lines).visible()
+    cut = "" if drawing.section is None else ", cut by a plane"
     visible, hidden = int(seen.sum()), int(len(seen) - seen.sum())
     return (
-        f"Hidden-line drawing of {drawing.source}: view {drawing.view.name}, {drawing.view.projection}, scale "
+        f"Hidden-line drawing of {drawing.source}{cut}: view {drawing.view.name}, {drawing.view.projection}, scale "
         f"{ratio(drawing.scale)}, {counted(visible, 'visible line')} and {counted(hidden, 'hidden line')}."
     )
 
@@ -178,6 +179,8 @@ def _camera(drawing: Drawing) -> dict[str, str]:
         fields["eye"] = _vector(view.eye)
     if view.target is not None:
         fields["target"] = _vector(view.target)
+    if drawing.section is not None:
+        fields["section"] = _vector(drawing.section.point)
     return fields | {"scale": ratio(drawing.scale), "origin": _vector(drawing.origin), "unit": f"{drawing.unit:.9g}"}
 
 

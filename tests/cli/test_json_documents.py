@@ -79,6 +79,7 @@ def of_draw(hlr_real):
         (ROUNDED, "--fill", "--style", "dark", "--window", "1,1,40,40", "--report"),
         (DATA / "freecad" / "spring.step", "--accuracy", "0.1"),
         (DATA / "soup.stl", "--fit", "30x30"),
+        (BOX, "--section", "front"),
     ):
         yield json.loads(hlr_real("draw", *arguments, "-o", "a.json", "--json").out)
         yield read("a.json")

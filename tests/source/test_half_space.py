@@ -49,3 +49,10 @@ def test_shells_and_wires_stay_open():
     cut_sheet, cut_wire = cut_away(leaves, np.array([2.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0]))
     assert cq.Shape.cast(cut_sheet.shape).Area() == pytest.approx(70.0)
     assert sum(edge.Length() for edge in cq.Shape.cast(cut_wire.shape).Edges()) == pytest.approx(7.0)
+
+
+def test_a_plane_that_comes_no_deeper_than_rounding_cuts_nothing():
+    leaf = Leaf(cq.Workplane().box(4, 4, 4).val().wrapped, "block")
+    (kept,) = cut_away([leaf], np.array([0.0, 0.0, 2.0 - 1e-12]), np.array([0.0, 0.0, 1.0]))
+    assert kept.shape.IsSame(leaf.shape)
+    assert cut_away([leaf], np.array([0.0, 0.0, -2.0 + 1e-12]), np.array([0.0, 0.0, 1.0])) == []

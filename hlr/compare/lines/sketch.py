@@ -41,6 +41,7 @@ class StatedView:
 
     direction   from the object toward the viewer
     eye, target  in perspective
+    section     a point on the plane by which the model was cut; None: it was not
     """
 
     name: str
@@ -48,6 +49,7 @@ class StatedView:
     up: Vector
     eye: Vector | None = None
     target: Vector | None = None
+    section: Vector | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,24 +8,26 @@ from dataclasses import replace
 
 from hlr.compare.lines.sketch import StatedView
 from hlr.drawing.drawing import DrawnView
+from hlr.drawing.section import Section
 from hlr.request.options import Options, Perspective, Vector, View
 from hlr.source.model import Frame
 
 
-def stated_by(view: DrawnView) -> StatedView:
+def stated_by(view: DrawnView, section: Section | None = None) -> StatedView:
     """Of a drawing in memory."""
-    return StatedView(view.name, view.direction, view.up, view.eye, view.target)
+    cut = None if section is None else section.point
+    return StatedView(view.name, view.direction, view.up, view.eye, view.target, cut)
 
 
 def stated_in(name: str | None, fields: Mapping[str, str]) -> StatedView | None:
     """Of a file: its vectors as texts. None where it does not say them. Raises ValueError where they are no vectors."""
     if name is None or "direction" not in fields or "up" not in fields:
         return None
-    eye, target = (_vector(fields[key]) if key in fields else None for key in ("eye", "target"))
+    eye, target, section = (_vector(fields[key]) if key in fields else None for key in ("eye", "target", "section"))
     direction, up = (_vector(fields[key]) for key in ("direction", "up"))
     if not any(direction) or not any(up):
         raise ValueError("a direction is zero")
-    return StatedView(name, direction, up, eye, target)
+    return StatedView(name, direction, up, eye, target, section)
 
 
 def _vector(text: str) -> Vector:
@@ -42,7 +44,8 @@ def as_stated(stated: StatedView, frame: Frame, options: Options) -> tuple[View,
         target = None if stated.target is None else _millimetres(stated.target, frame)
         camera = Perspective(eye=_millimetres(stated.eye, frame), target=target)
         return direction, replace(options, up=up, perspective=camera)
-    return direction, replace(options, up=up)
+    section = None if stated.section is None else _millimetres(stated.section, frame)
+    return direction, replace(options, up=up, section=section)
 
 
 def _millimetres(point: Vector, frame: Frame) -> Vector:

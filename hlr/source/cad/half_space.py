@@ -15,6 +15,9 @@ from hlr.source.cad.part_shapes import OcctShapes
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.shapes import make_compound
 
+NEAR = 1e-9
+"""Of the size of a shape: a plane that comes no deeper into it than this only touches it."""
+
 
 def cut_away(leaves: Sequence[Leaf], origin: Floats, normal: Floats) -> list[Leaf]:
     """The leaves without what lies on the side of a plane to which its normal points.
@@ -43,10 +46,10 @@ def _cut(shape: Any, origin: Floats, normal: Floats, name: str) -> Any | None:
     if corners is None:
         return None
     size = float(np.linalg.norm(corners.max(axis=0) - corners.min(axis=0)))
-    heights = (corners - origin) @ normal
-    if heights.max() <= 0.0:
+    heights, near = (corners - origin) @ normal, NEAR * size
+    if heights.max() <= near:
         return shape
-    if heights.min() >= 0.0:
+    if heights.min() >= -near:
         return None
     middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
     foot = middle - float((middle - origin) @ normal) * normal
@@ -60,6 +63,8 @@ def _corners(shape: Any) -> Floats | None:
 
     box = Bnd_Box()
     BRepBndLib.AddOptimal_s(shape, box, False, False)
+    if box.IsVoid():  # of some shapes that are not sound it finds no extent
+        BRepBndLib.Add_s(shape, box, False)
     if box.IsVoid():
         return None
     x0, y0, z0, x1, y1, z1 = box.Get()

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from hlr import _kernel
-from hlr.common.types import Color, Floats, Progress
+from hlr.common.types import Color, Floats, Ints, Progress
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError, counted
 from hlr.request.options import Vector
@@ -141,6 +141,30 @@ class MeshSource:
         chosen._parts = [part for part, _, _ in chosen._drawn]
         chosen._boxes = None
         return chosen
+
+    @property
+    def parts(self) -> list[PartMesh]:
+        """The parts that are drawn."""
+        return self._parts
+
+    def with_meshes(self, meshes: Mapping[str, tuple[Floats, Ints] | None]) -> MeshSource:
+        """The same source with other points and triangles of some parts; None: the part is left out.
+
+        Parts with other triangles have one colour each.
+        """
+        changed = copy(self)
+        changed._drawn, changed._boxes = [], None
+        for part, instance, mesh in self._drawn:
+            other = meshes.get(part.name, ())
+            if other:
+                cleaned = clean_mesh(*other)
+                whole = Instance(part.name, 0, np.eye(4), instance.color)
+                made = replace(_part(part.name, cleaned, whole), precision=max(part.precision, cleaned.precision))
+                changed._drawn.append((made, whole, cleaned))
+            elif other is not None:
+                changed._drawn.append((part, instance, mesh))
+        changed._parts = [part for part, _, _ in changed._drawn]
+        return changed
 
     def transparent(self) -> bool:
         """Whether the file has colours: only then can a part be transparent."""

@@ -1,0 +1,26 @@
+"""What a drawing says of the plane by which its model was cut."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """The plane of a section. Model coordinates.
+
+    point   on the plane
+    normal  of length 1, toward the viewer: what lay on its side was taken away
+    parts   those that the plane cuts, whose cut faces are hatched: indices into Drawing.parts
+
+    >>> import hlr
+    >>> drawing = hlr.draw("part.step", view="front", section=True)
+    >>> drawing.section.normal, drawing.section.parts
+    ((0.0, -1.0, 0.0), (0,))
+    """
+
+    point: Vector
+    normal: Vector
+    parts: tuple[int, ...]

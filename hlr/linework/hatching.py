@@ -1,0 +1,153 @@
+"""Hatches of cut faces (ISO 128): parallel thin lines on paper, other ones in each of the parts that touch.
+
+Lines are at 45 degrees to the right or to the left, and closer together in small faces. Parts that touch one another
+get another direction, or another spacing; all faces of one part have the same lines, which lie still on paper.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hlr.common.types import Floats
+from hlr.drawing.hatch_pattern import Row
+from hlr.linework.hatch_strokes import inside, strokes_within
+
+SPACINGS = (0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0)
+"""Millimetres from line to line."""
+
+LINES_A_SIDE = 8.0
+"""In a square face there are about so many spacings to a side, as far as SPACINGS and the paper allow."""
+
+PAPER_SHARE = 70.0
+"""The shorter side of the paper over this is the widest spacing."""
+
+CANDIDATES = (*((angle, steps) for steps in (0, -1, -2, 2) for angle in (45.0, 135.0)), (30.0, 0), (120.0, 0))
+"""Degrees, and by how many steps of SPACINGS the usual spacing is changed, the better ones first."""
+
+APART = 1.4
+"""Hatches of one direction differ where their spacings do by this factor."""
+
+TOUCH = 0.5
+"""Millimetres: parts with less between them touch, as far as one can see."""
+
+MOST_ACROSS = 2000
+"""Lines across one part; in huge drawings they lie further apart."""
+
+PAIRS = 1_000_000
+"""Corners times sides that are compared at a time."""
+
+MOST_COMPARED = 50_000_000
+"""Parts with more corners times sides count as touching where their boxes do."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pattern:
+    """The lines of one part. angle: degrees counter-clockwise from the right; spacing: mm from line to line."""
+
+    angle: float
+    spacing: float
+
+    def row(self) -> Row:
+        """The lines. The first lies half a spacing from the origin, so that none runs through a corner there."""
+        turn = math.radians(self.angle)
+        along = np.array([math.cos(turn), math.sin(turn)])
+        across = self.spacing * np.array([-along[1], along[0]])
+        return Row(0.5 * across, along, across, ())
+
+    def like(self, other: Pattern) -> bool:
+        """Whether one can hardly tell it from another."""
+        wide, narrow = max(self.spacing, other.spacing), min(self.spacing, other.spacing)
+        return self.angle == other.angle and wide < APART * narrow
+
+
+def patterns_of(parts: Mapping[str, Sequence[Floats]], paper: float) -> dict[str, Pattern]:
+    """The pattern of each part.
+
+    parts: the loops (k, 2) of its cut faces, millimetres on paper, holes the other way round; paper: the shorter side
+    """
+    areas = {name: abs(sum(map(_area, loops))) for name, loops in parts.items()}
+    # The large faces come first: they have the usual lines.
+    order = sorted(parts, key=lambda name: (-areas[name], name))
+    boxes = {name: _box(loops) for name, loops in parts.items()}
+    sides = {name: _sides(loops) for name, loops in parts.items()}
+    found: dict[str, Pattern] = {}
+    for name in order:
+        near = [found[other] for other in found if _touch(boxes[name], boxes[other], sides[name], sides[other])]
+        low, high = boxes[name]
+        least = float(np.hypot(*(high - low))) / MOST_ACROSS
+        usual = _usual(areas[name], paper)
+        choices = [Pattern(angle, max(_stepped(usual, steps), least)) for angle, steps in CANDIDATES]
+        # Best is another direction; where neighbours have both, another spacing.
+        turned = [own for own in choices[:2] if all(own.angle != other.angle for other in near)]
+        apart = [own for own in choices if not any(map(own.like, near))]
+        found[name] = next(iter((*turned, *apart)), choices[len(near) % len(choices)])
+    return found
+
+
+def hatched(loops: Sequence[Floats], pattern: Pattern, shortest: float) -> Floats:
+    """The lines (n, 2, 2) of a pattern inside a face; loops (k, 2): its border, mm; shortest: of a line, mm."""
+    sides = _sides(loops)
+    low, high = _box(loops)
+    strokes = strokes_within((pattern.row(),), low, high)
+    if strokes is None:
+        return np.zeros((0, 2, 2))
+    lines = inside(strokes, sides)
+    return np.asarray(lines[np.hypot(*(lines[:, 1] - lines[:, 0]).T) >= shortest])
+
+
+def _usual(area: float, paper: float) -> int:
+    """Which of SPACINGS the lines of a face of this size have."""
+    wished = min(math.sqrt(area) / LINES_A_SIDE, paper / PAPER_SHARE)
+    return max(sum(spacing <= wished for spacing in SPACINGS) - 1, 0)
+
+
+def _stepped(usual: int, steps: int) -> float:
+    return SPACINGS[min(max(usual + steps, 0), len(SPACINGS) - 1)]
+
+
+def _area(loop: Floats) -> float:
+    x, y = (loop - loop[0]).T
+    return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+
+
+def _box(loops: Sequence[Floats]) -> tuple[Floats, Floats]:
+    points = np.concatenate(list(loops))
+    return points.min(axis=0), points.max(axis=0)
+
+
+def _sides(loops: Sequence[Floats]) -> Floats:
+    """(n, 2, 2) the sides of all loops."""
+    return np.concatenate([np.stack([loop, np.roll(loop, -1, axis=0)], axis=1) for loop in loops])
+
+
+def _touch(one: tuple[Floats, Floats], other: tuple[Floats, Floats], a: Floats, b: Floats) -> bool:
+    """Whether two parts touch. one, other: their boxes; a, b: their sides."""
+    low, high = np.maximum(one[0], other[0]) - TOUCH, np.minimum(one[1], other[1]) + TOUCH
+    if (low > high).any():
+        return False
+    a, b = (_reaching(sides, low, high) for sides in (a, b))
+    if 2 * len(a) * len(b) > MOST_COMPARED:
+        return True
+    return any(_near(a[:, 0], b)) or any(_near(b[:, 0], a))
+
+
+def _reaching(sides: Floats, low: Floats, high: Floats) -> Floats:
+    """Those of the sides that may reach into a box."""
+    return np.asarray(sides[((sides.min(axis=1) <= high) & (sides.max(axis=1) >= low)).all(axis=1)])
+
+
+def _near(points: Floats, sides: Floats) -> Iterator[bool]:
+    """Whether any of some points (n, 2) lies on sides (m, 2, 2), or nearly; a few points at a time."""
+    if not len(sides):
+        return
+    start, way = sides[:, 0], sides[:, 1] - sides[:, 0]
+    length = np.maximum((way * way).sum(axis=1), 1e-300)
+    few = max(1, PAIRS // len(sides))
+    for k in range(0, len(points), few):
+        away = points[k : k + few, None] - start
+        along = np.clip((away * way).sum(axis=2) / length, 0.0, 1.0)
+        yield bool((((away - along[..., None] * way) ** 2).sum(axis=2) <= TOUCH * TOUCH).any())

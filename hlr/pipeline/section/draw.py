@@ -1,0 +1,115 @@
+"""Views of which some are sections: each section is drawn of what its plane leaves of the model, and hatched."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import Any
+
+from hlr.common.clock import lap
+from hlr.common.types import Progress
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.notes import Note, Noted
+from hlr.image.paper import at_scale
+from hlr.pipeline.section.hatches import with_hatches
+from hlr.pipeline.section.plane import Plane, plane_of
+from hlr.pipeline.section.sources import CutSource, cut_source
+from hlr.pipeline.session import Session
+from hlr.request.directions import directed
+from hlr.request.options import Options, Request, View
+from hlr.request.section import place_of
+from hlr.source.model import Source
+from hlr.source.selection import matching, open_selected
+
+
+@dataclass(frozen=True, slots=True)
+class _Cut:
+    """A section before it is drawn. seconds: that it took to cut the model."""
+
+    plane: Plane
+    source: CutSource
+    seconds: float
+
+
+def draw_sections(
+    source: Any,
+    views: Sequence[View],
+    options: Options,
+    progress: Progress | None = None,
+    noted: Noted | None = None,
+) -> list[Drawing]:
+    """One drawing per view, as `hlr.pipeline.draw.draw_views`; options.section says which of them are cut.
+
+    views, options: checked. Raises as that, and OptionError where a plane cuts nothing or leaves nothing.
+    """
+    opened = open_selected(source, options)
+    cuts = [_cut_for(view, opened, options) for view in views]
+    plain = [k for k, cut in enumerate(cuts) if cut is None]
+    sessions: list[tuple[list[int], Session]] = []
+    if plain:
+        alone = replace(options, section=None)
+        sessions.append((plain, Session(opened, [views[k] for k in plain], alone, progress)))
+    for k, cut in enumerate(cuts):
+        if cut is not None:
+            session = Session(cut.source.source, [views[k]], _of_section(options), progress)
+            session.clock["source"] += cut.seconds
+            sessions.append(([k], session))
+    if noted is not None:
+        noted([note for _, session in sessions for placement in session.placements for note in placement.notes])
+    found: dict[int, Drawing] = {}
+    for numbers, session in sessions:
+        for k, draft in zip(numbers, session.drafts(lines_alone=True), strict=True):
+            session.progress("visibility", len(found) / len(views))
+            scale = draft.image.placement.scale
+            asked = at_scale(options, scale) if options.same_scale else options
+            drawing, cut = session.drawing(draft, Request(views[k], asked)), cuts[k]
+            found[k] = drawing if cut is None else _finished(drawing, session, cut, directed(views[k])[0])
+    drawings = [found[k] for k in range(len(views))]
+    least = min(drawing.scale for drawing in drawings)
+    if options.same_scale and any(drawing.scale > least for drawing in drawings):
+        return draw_sections(opened, views, replace(at_scale(options, least), same_scale=False), progress)
+    if progress is not None:
+        progress("linework", 1.0)
+    return drawings
+
+
+def _cut_for(view: View, source: Source, options: Options) -> _Cut | None:
+    place = place_of(options.section, view)
+    if place is None:
+        return None
+    started = perf_counter()
+    plane = plane_of(place, view, source, options)
+    return _Cut(plane, cut_source(source, plane, matching(options.uncut, source, "uncut")), perf_counter() - started)
+
+
+def _of_section(options: Options) -> Options:
+    """The options of a section: without hidden lines where nothing else is asked for (ISO 128)."""
+    return replace(options, hidden=bool(options.hidden))
+
+
+def _finished(drawing: Drawing, session: Session, cut: _Cut, name: str) -> Drawing:
+    """The drawing with its hatches, and what is to be said about them."""
+    started, clock = perf_counter(), dict(drawing.timings)
+    drawing = with_hatches(drawing, session, cut.plane, cut.source)
+    drawing = replace(drawing, notes=(*drawing.notes, *_notes(drawing, cut, name)))
+    lap(clock, "linework", started)
+    clock["total"] = sum(seconds for stage, seconds in clock.items() if stage != "total")
+    return replace(drawing, timings=clock)
+
+
+def _notes(drawing: Drawing, cut: _Cut, name: str) -> list[Note]:
+    """What is said of a section that does not show all that one expects of it."""
+    assert drawing.section is not None
+    hatched = {cut.source.whose[drawing.parts[k].name] for k in drawing.section.parts}
+    unhatched = sorted(cut.source.cut - hatched)
+    if cut.plane.touching:
+        text = f"the plane of section {name} only touches the model: nothing is taken away."
+    elif not cut.source.cut:
+        text = f"the plane of section {name} goes through no part: nothing is hatched."
+    elif unhatched:
+        several = f"{len(unhatched)} parts that it cuts, such as" if len(unhatched) > 1 else "it cuts"
+        text = f'section {name}: {several} "{unhatched[0]}", without a closed surface, and so without a hatch.'
+    else:
+        return []
+    return [Note("section-not-hatched", text)]

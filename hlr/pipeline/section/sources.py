@@ -1,0 +1,130 @@
+"""What a section leaves of a source."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hlr.common.types import Floats
+from hlr.errors import OptionError, SourceError
+from hlr.pipeline.section.plane import Plane
+from hlr.source.cad.brep_source import BrepSource
+from hlr.source.mesh.mesh_source import MeshSource
+from hlr.source.model import Source
+
+
+@dataclass(frozen=True, slots=True)
+class CutSource:
+    """A source that a plane has cut.
+
+    whose  the part of the whole model that each of its parts is, or is a piece of, by name
+    cut    names of those parts of the whole model that the plane goes through
+    """
+
+    source: Source
+    whose: dict[str, str]
+    cut: frozenset[str]
+
+
+def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> CutSource:
+    """The source without what lies before a plane.
+
+    uncut: names of parts that stay whole, unless they lie wholly before the plane
+
+    Raises:
+        SourceError: it cannot be cut: a mesh that is open, a shape that is not sound, another kind of source.
+        OptionError: nothing would be left.
+    """
+    if plane.touching:
+        return CutSource(source, {name: name for name in source.names()}, frozenset())
+    if not isinstance(source, BrepSource | MeshSource):
+        raise SourceError(f"{source.name} cannot be cut for a section: draw a CAD model, or a mesh.")
+    whole: list[str] = []
+    crossed: list[str] = []
+    for name, box in zip(source.names(), source.boxes(), strict=True):
+        corners = _corners(box)
+        heights = plane.heights(corners) if len(corners) else np.zeros(1)
+        if heights.max() <= plane.near:
+            whole.append(name)
+        elif heights.min() < -plane.near:
+            (whole if name in uncut else crossed).append(name)
+    found = _cut_brep(source, plane, whole, crossed) if isinstance(source, BrepSource) else None
+    if isinstance(source, MeshSource):
+        found = _cut_meshes(source, plane, whole, crossed)
+    if found is None:
+        raise OptionError(f"the section leaves nothing of {source.name}: move its plane, or leave it out")
+    return found
+
+
+def _corners(box: Floats) -> Floats:
+    """(8, 3) of a box that is given by its corners, or by the lower and the upper one."""
+    if len(box) != 2:
+        return box
+    return np.array([[box[i][0], box[j][1], box[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+
+
+def _cut_brep(source: BrepSource, plane: Plane, whole: list[str], crossed: list[str]) -> CutSource | None:
+    from hlr.source.cad.closing import as_solid
+    from hlr.source.cad.half_space import cut_away
+    from hlr.source.cad.occt_import import load_occt
+    from hlr.source.cad.parts import Leaf
+    from hlr.source.cad.source_builder import build_source, with_appearance
+    from hlr.source.model import Appearance
+
+    load_occt()
+    from OCP.gp import gp_Trsf
+    from OCP.TopLoc import TopLoc_Location
+
+    origin, normal = np.array(plane.point), np.array(plane.normal)
+    size = float(np.linalg.norm(np.subtract(*source.bounds())))
+    shapes, looks = source.prototypes.shapes, source.appearances()
+    leaves, cut = [], set()
+    kept, through = set(whole), set(crossed)
+    for part in source.parts:
+        if part.name not in kept and part.name not in through:
+            continue
+        move = gp_Trsf()
+        move.SetValues(*(float(value) for value in part.transform[:3].ravel()))
+        shape = shapes[part.prototype].Moved(TopLoc_Location(move), False)
+        leaf = Leaf(shape, part.name, part.color, above=part.above)
+        if part.name in through:
+            leaf.shape = as_solid(shape, size)
+            left = cut_away([leaf], origin, normal)
+            if left and not left[0].shape.IsSame(leaf.shape):
+                cut.add(part.name)
+            leaves += left
+        else:
+            leaves.append(leaf)
+    if not leaves:
+        return None
+    made = build_source(source.name, source.kind, leaves, source.notes)
+    # Pieces of a part that was cut have one colour: their faces are not those of the part.
+    of = {part.name: part for part in source.parts}
+    parts = []
+    for part in made.parts:
+        look = looks[part.product]
+        parts.append(
+            replace(
+                with_appearance(part, Appearance(look.whole) if part.product in cut else look),
+                transparent=of[part.product].transparent,
+            )
+        )
+    whose = {part.name: part.product for part in parts}
+    built = BrepSource(source.name, source.kind, parts, made.prototypes, made.notes)
+    built.choice, built.reading = source.choice, source.reading
+    return CutSource(built, whose, frozenset(cut))
+
+
+def _cut_meshes(source: MeshSource, plane: Plane, whole: list[str], crossed: list[str]) -> CutSource | None:
+    from hlr.source.mesh.half_space import cut_mesh
+
+    origin, normal = np.array(plane.point), np.array(plane.normal)
+    parts = {part.name: part for part in source.parts}
+    left_over = {name: cut_mesh(parts[name], origin, normal, source.name) for name in crossed}
+    gone = {name: None for name in parts if name not in whole and name not in left_over}
+    left = source.with_meshes({**left_over, **gone})
+    if not left.names():
+        return None
+    return CutSource(left, {name: name for name in left.names()}, frozenset(crossed))

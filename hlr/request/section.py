@@ -1,0 +1,101 @@
+"""Sections: which views of a drawing are cut, and where. Planes lie across the direction of their view.
+
+A section is said by a place: True for the middle of the model; a number for the coordinate at which a view along an
+axis is cut, x for left and right, y for front and back, z for top and bottom; or a point on the plane. Lengths are
+millimetres in the world (z up), as those of an eye. One place is for all views; a mapping says a place for each of the
+views that it names, and the others are not cut.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from typing import Any, cast
+
+from hlr.common.numbers import is_finite
+from hlr.errors import OptionError, ViewError
+from hlr.request.directions import directed, pictorial
+from hlr.request.options import SectionPlace, Vector, View
+from hlr.tables.entry import listed
+
+FARTHEST = 1e12
+"""Millimetres: of a plane, in any coordinate."""
+
+
+def checked_section(section: Any) -> SectionPlace | dict[str, SectionPlace] | None:
+    """What was asked for in its one form: None, a place, or places by the names of views.
+
+    Raises OptionError that says what is allowed.
+    """
+    if isinstance(section, Mapping):
+        found = {_name(view): _place(place) for view, place in section.items()}
+        return {view: place for view, place in found.items() if place is not None} or None
+    return _place(section)
+
+
+def place_of(section: Any, view: View) -> SectionPlace | None:
+    """Where a view is cut; None: it is not. section: checked."""
+    return section.get(directed(view)[0]) if isinstance(section, Mapping) else section
+
+
+def check_sections(section: Any, views: Sequence[View], *, by_name: bool = False) -> None:
+    """Raise OptionError where a section does not fit the views. section, views: checked.
+
+    by_name: views on one page, of which some are cut
+    """
+    if section is None:
+        return
+    names = [directed(view)[0] for view in views]
+    if isinstance(section, Mapping):
+        if unknown := [name for name in section if name not in names]:
+            raise OptionError(f"section {unknown[0]} is none of the views, {listed(names, 'and')}: add it to them")
+    elif by_name:
+        raise OptionError('a page of several views has sections by name: give {"front": True}, not one for all')
+    for view, name in zip(views, names, strict=True):
+        place = place_of(section, view)
+        if place is not None and not isinstance(place, bool | tuple) and pictorial(directed(view)[1]):
+            raise OptionError(
+                f"section {name} at {place:g}: the view looks along no axis, so give a point on its plane, such as "
+                "0,0,0"
+            )
+
+
+def axis_of(direction: Vector) -> int | None:
+    """The axis that a direction lies along: 0, 1 or 2; None: it lies along none."""
+    return None if pictorial(direction) else max(range(3), key=lambda k: abs(direction[k]))
+
+
+def _name(view: Any) -> str:
+    try:
+        named = isinstance(view, str) and "," not in view
+        return directed(cast(View, view.strip().lower() if named else _vector(view)))[0]
+    except (ViewError, TypeError, ValueError) as error:
+        why = str(error).rstrip(".") if isinstance(error, ViewError) else f"{view!r} is no view"
+        raise OptionError(f"section: {why}") from None
+
+
+def _vector(view: Any) -> tuple[float, ...]:
+    return tuple(float(c) for c in (view.split(",") if isinstance(view, str) else view))
+
+
+def _place(place: Any) -> SectionPlace | None:
+    if place is None or place is False:
+        return None
+    if place is True:
+        return True
+    with suppress(TypeError):
+        return _coordinate(place)
+    with suppress(TypeError, ValueError):
+        x, y, z = map(_coordinate, () if isinstance(place, str | bytes) else place)
+        return x, y, z
+    raise OptionError(
+        "section needs True for the middle of the model, a coordinate such as 12.5, or a point on its plane such as "
+        f"(0, 12.5, 0), in millimetres, not {place!r}"
+    )
+
+
+def _coordinate(value: Any) -> float:
+    """Raises TypeError unless it is a number of a size that a model may have."""
+    if not is_finite(value) or abs(value) > FARTHEST:
+        raise TypeError
+    return float(value)

@@ -1,0 +1,57 @@
+"""Solids of faces that close a body, as surface models and IGES files have them, and of solids turned inside out."""
+
+from __future__ import annotations
+
+from typing import Any
+
+SEWN = 1e-6
+"""Of the size of a shape: borders of faces that lie so close to one another are one edge."""
+
+
+def as_solid(shape: Any, size: float) -> Any:
+    """The solid that the faces of a shape close, turned outward; the shape itself where they leave an opening.
+
+    shape: of OpenCASCADE, which stays as it is; size: of it, in its units
+    """
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+    if shape.ShapeType() == Kind.TopAbs_SOLID:
+        return shape.Reversed() if _volume(shape) < 0.0 else shape
+    if shape.ShapeType() not in (Kind.TopAbs_SHELL, Kind.TopAbs_COMPOUND, Kind.TopAbs_FACE):
+        return shape
+    solids = _sewn_solids(shape, SEWN * size)
+    if not solids:
+        return shape
+    from hlr.source.cad.shapes import make_compound
+
+    return solids[0] if len(solids) == 1 else make_compound(solids)
+
+
+def _sewn_solids(shape: Any, near: float) -> list[Any]:
+    """A solid for each shell that the faces make; none where one of them is open."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid, BRepBuilderAPI_Sewing
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+    from OCP.TopoDS import TopoDS
+
+    from hlr.source.cad.shapes import sub_shapes
+
+    sewing = BRepBuilderAPI_Sewing(near)
+    sewing.Add(shape)
+    sewing.Perform()
+    sewn = sewing.SewedShape()
+    if sewn.IsNull() or sewing.NbFreeEdges() or sub_shapes(sewn, Kind.TopAbs_FACE, Kind.TopAbs_SHELL):
+        return []
+    shells = sub_shapes(sewn, Kind.TopAbs_SHELL)
+    if not all(shell.Closed() for shell in shells):
+        return []
+    solids = [BRepBuilderAPI_MakeSolid(TopoDS.Shell(shell)).Solid() for shell in shells]
+    return [solid.Reversed() if _volume(solid) < 0.0 else solid for solid in solids]
+
+
+def _volume(shape: Any) -> float:
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    found = GProp_GProps()
+    BRepGProp.VolumeProperties_s(shape, found)
+    return float(found.Mass())

@@ -1,0 +1,103 @@
+"""`--section` and `--uncut`: which views are cut and where, and what is refused."""
+
+from pathlib import Path
+
+import pytest
+
+DATA = Path(__file__).parents[1] / "data"
+STEP, HOUSING = DATA / "as1-oc-214.stp", DATA / "housing_body.FCStd"
+BOX = DATA / "freecad" / "box.step"
+
+
+@pytest.fixture
+def draw(hlr_real):
+    def run(source, *arguments):
+        return hlr_real("draw", source, *arguments, "-q")
+
+    return run
+
+
+def test_a_section_through_the_middle(draw, tmp_path):
+    assert draw(STEP, "--section", "front", "-o", "a.svg").code == 0
+    svg = (tmp_path / "a.svg").read_text("utf-8")
+    assert svg.count('<g class="hatch"') == 1
+    assert '<g id="hidden"' not in svg
+    assert ' section="90 75 38"' in svg
+    assert draw(STEP, "--section", "front@middle", "-o", "b.svg").code == 0
+    assert (tmp_path / "b.svg").read_text("utf-8") == svg
+
+
+@pytest.mark.parametrize("plane", ["front@20", "FRONT@1,20,3", "0,-2,0@0,20,0"])
+def test_a_section_at_a_place(draw, tmp_path, plane):
+    assert draw(STEP, "--section", plane, "-o", "a.svg").code == 0
+    svg = (tmp_path / "a.svg").read_text("utf-8")
+    point = svg.partition(' section="')[2].partition('"')[0].split()
+    assert float(point[1]) == 20.0
+
+
+def test_views_beside_a_section_are_whole(draw, tmp_path):
+    done = draw(STEP, "--view", "iso", "--view", "top", "--section", "top", "--section", "left", "-o", "{view}.svg")
+    assert (done.code, done.err) == (0, "")
+    hatched = {path.stem: "hatch" in path.read_text("utf-8") for path in tmp_path.glob("*.svg")}
+    assert hatched == {"iso": False, "top": True, "left": True}
+
+
+def test_parts_stay_whole(draw, tmp_path):
+    assert draw(STEP, "--section", "front", "--uncut", "bolt*", "-o", "a.json").code == 0
+    import hlr
+
+    drawing = hlr.load(tmp_path / "a.json")
+    cut = {drawing.parts[k].name.partition(":")[0] for k in drawing.section.parts}
+    assert cut and not any("bolt" in name for name in cut)
+    assert any("bolt" in part.name for part in drawing.parts)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--section", "frnt"], "'frnt' is none of front, back"),
+        (["--section", "front@"], "'front@' names no plane: give front, front@12.5 in millimetres, or front@0,12.5,0"),
+        (["--section", "front@a"], "'front@a' names no plane"),
+        (["--section", "front@1,2"], "'front@1,2' names no plane"),
+        (["--section", "front", "--section", "front@3"], "--section gives front twice: a view is cut once"),
+        (["--section", "front@900"], "section front at y = 900 misses the model: as1-oc-214.stp reaches from 0 to 150"),
+        (["--section", "iso@9"], "section iso at 9: the view looks along no axis, so give a point on its plane"),
+        (["--section", "front", "--perspective"], "a section has no perspective: leave out perspective, or section"),
+        (["--section", "front", "--report"], "a section has no report: leave out report, or section"),
+        (["--section", "front", "--uncut", "blot"], 'uncut "blot" matches no part: perhaps "bolt"'),
+        (["--uncut", "bolt"], "--uncut is for --section: leave it out, or say what is cut"),
+    ],
+)
+def test_what_cannot_be_cut_is_refused_in_one_sentence(draw, tmp_path, arguments, message):
+    done = draw(STEP, *arguments, "-o", "a.svg")
+    assert done.code == 2
+    assert message in done.err
+    assert done.err.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+def test_pages_of_documents_have_their_own_sections(draw):
+    done = draw(HOUSING, "--page", "Page", "--section", "front")
+    assert done.code == 2
+    assert "a page of a document is drawn as it is: leave out the option section" in done.err
+    assert draw(HOUSING, "--section", "front", "-o", "a.svg").code == 0
+
+
+def test_a_plane_that_only_touches_is_told(hlr_real):
+    done = hlr_real("draw", BOX, "--section", "front@-20", "-o", "a.svg")
+    assert done.code == 0
+    assert "hlr: note: the plane of section front only touches the model: nothing is taken away." in done.err
+
+
+def test_nothing_of_it_is_loaded_where_no_section_is_asked_for(tmp_path):
+    import subprocess
+    import sys
+
+    program = (
+        "import sys, hlr; hlr.draw(([(0, 0, 0), (30, 0, 0), (0, 20, 0)], [(0, 1, 2)])).save('a.svg'); "
+        "print(*(name for name in sys.modules if '.section' in name or 'hatch' in name or 'cut_faces' in name or 'half_space' in name))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", program], capture_output=True, text=True, check=True, cwd=tmp_path
+    )
+    assert done.stdout.split() == ["hlr.drawing.section"]

@@ -1,0 +1,101 @@
+"""Hatches: which lines each part gets, and where they begin and end."""
+
+import numpy as np
+import pytest
+
+from hlr.linework import hatching
+from hlr.linework.hatching import Pattern, hatched, patterns_of
+
+A4 = 210.0
+
+
+def rectangle(x, y, width, height, hole=False):
+    corners = np.array([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]]) + [x, y]
+    return corners[::-1] if hole else corners
+
+
+def lengths(lines):
+    return np.hypot(*(lines[:, 1] - lines[:, 0]).T)
+
+
+def test_lines_are_at_45_degrees_a_spacing_apart_from_border_to_border():
+    lines = hatched([rectangle(0, 0, 60, 40)], Pattern(45.0, 2.0), 0.01)
+    way = lines[:, 1] - lines[:, 0]
+    assert way[:, 0] == pytest.approx(way[:, 1])
+    # Where they cross the left or the lower side: half a spacing from the corner, then each spacing.
+    across = (lines[:, 0] @ [-1.0, 1.0]) / np.sqrt(2.0)
+    first, last = -60 / np.sqrt(2.0), 40 / np.sqrt(2.0)
+    expected = np.arange(-100.0, 100.0) * 2.0 + 1.0
+    assert np.sort(across) == pytest.approx(expected[(expected > first) & (expected < last)])
+    for ends in lines:
+        for x, y in ends:
+            assert min(abs(x), abs(x - 60), abs(y), abs(y - 40)) < 1e-9
+
+
+def test_no_line_is_in_a_hole():
+    face = [rectangle(0, 0, 60, 40), rectangle(20, 10, 20, 20, hole=True)]
+    lines = hatched(face, Pattern(45.0, 1.0), 0.01)
+    assert lengths(lines).sum() * 1.0 == pytest.approx(60 * 40 - 20 * 20, rel=0.01)
+    middle = lines.mean(axis=1)
+    assert not ((np.abs(middle - [30, 20]) < 10 - 1e-9).all(axis=1)).any()
+    borders = np.concatenate([lines[:, 0], lines[:, 1]])
+    on_hole = np.isclose(np.abs(borders - [30, 20]).max(axis=1), 10)
+    assert on_hole.sum() == pytest.approx(2 * 20 * np.sqrt(2.0), abs=2)
+
+
+def test_lines_shorter_than_asked_for_are_left_out():
+    face = [rectangle(0, 0, 10, 10)]
+    every, some = (hatched(face, Pattern(45.0, 1.0), least) for least in (0.0, 3.0))
+    assert lengths(every).min() < 3.0 <= lengths(some).min()
+    assert len(some) == (lengths(every) >= 3.0).sum()
+
+
+@pytest.mark.parametrize(
+    ("side", "paper", "spacing"), [(1, A4, 0.7), (10, A4, 1.0), (20, A4, 2.0), (200, A4, 3.0), (200, 841, 7.0)]
+)
+def test_large_faces_on_large_sheets_have_wide_spacings(side, paper, spacing):
+    assert patterns_of({"a": [rectangle(0, 0, side, side)]}, paper) == {"a": Pattern(45.0, spacing)}
+
+
+def test_parts_that_touch_differ_and_others_are_alike():
+    parts = {
+        "left": [rectangle(0, 0, 30, 30)],
+        "right": [rectangle(30, 0, 30, 29)],
+        "pin": [rectangle(25, 10, 10, 5)],
+        "far": [rectangle(0, 100, 30, 28)],
+    }
+    found = patterns_of(parts, A4)
+    assert found["left"] == found["far"] == Pattern(45.0, 3.0)
+    assert found["right"] == Pattern(135.0, 3.0)
+    assert not any(found["pin"].like(found[other]) for other in ("left", "right"))
+
+
+def test_a_part_in_the_hole_of_another_touches_it_only_where_the_border_is_near():
+    ring = [rectangle(0, 0, 60, 60), rectangle(20, 20, 20, 20, hole=True)]
+    close, apart = ([rectangle(20 + gap, 20 + gap, 20 - 2 * gap, 20 - 2 * gap)] for gap in (0.2, 4.0))
+    assert patterns_of({"ring": ring, "core": close}, A4)["core"].angle == 135.0
+    assert patterns_of({"ring": ring, "core": apart}, A4)["core"].angle == 45.0
+
+
+def test_ten_parts_in_a_fan_that_all_touch_get_patterns_without_end():
+    parts = {f"{k}": [np.array([[0, 0], [50.0, 10.0 * k], [50.0, 10.0 * k + 10]])] for k in range(10)}
+    found = list(patterns_of(parts, A4).values())
+    assert len(set(found)) >= 6
+
+
+def test_comparing_a_few_corners_at_a_time_changes_nothing(monkeypatch):
+    parts = {"a": [rectangle(0, 0, 30, 30)], "b": [rectangle(30, 0, 30, 30)], "c": [rectangle(61, 0, 30, 30)]}
+    whole = patterns_of(parts, A4)
+    monkeypatch.setattr(hatching, "PAIRS", 5)
+    assert patterns_of(parts, A4) == whole
+
+
+def test_huge_drawings_have_a_bounded_number_of_lines():
+    face = [rectangle(0, 0, 1e6, 1e6)]
+    (pattern,) = patterns_of({"a": face}, 1e6).values()
+    assert len(hatched(face, pattern, 0.05)) < 2.0 * hatching.MOST_ACROSS
+
+
+def test_the_order_of_the_parts_changes_nothing():
+    parts = {"b": [rectangle(0, 0, 30, 30)], "a": [rectangle(30, 0, 30, 30)]}
+    assert patterns_of(parts, A4) == patterns_of(dict(reversed(parts.items())), A4)
