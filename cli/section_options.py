@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from hlr.errors import OptionError
 
 from .parameters import SectionPlane
-
-if TYPE_CHECKING:
-    from hlr.request.options import View
 
 
 def _as_table(_ctx: click.Context, _parameter: click.Parameter, given: tuple[tuple[str, Any], ...]) -> dict[str, Any]:
@@ -40,24 +36,3 @@ SECTION = (
         help="--section: leave these parts whole, such as bolts, shafts and ribs. May be repeated.",
     ),
 )
-
-
-def with_sections(views: Sequence[View], sections: dict[str, Any], usual: Sequence[View]) -> tuple[View, ...]:
-    """The views that are drawn: those that were asked for, or the usual ones, and those that are cut.
-
-    usual: without any other view
-    """
-    from hlr.request.directions import directed
-
-    found = tuple(views) or tuple(usual)
-    names = [directed(view)[0] for view in found]
-    more = [view for name in sections if name not in names for view in [_view(name)]]
-    return (*found, *more)
-
-
-def _view(name: str) -> View:
-    """The view of a name, or of a direction that is written as one."""
-    if "," not in name:
-        return name  # type: ignore[return-value]
-    x, y, z = map(float, name.split(","))
-    return x, y, z

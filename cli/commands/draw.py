@@ -10,7 +10,6 @@ import click
 
 from hlr.errors import OptionError
 from hlr.tables.line_classes import optional
-from hlr.tables.projection_methods import PROJECTION_METHODS
 from hlr.tables.writers import WRITERS, formats
 
 from ..arranged_page import ARRANGE, draw_arranged_page
@@ -19,7 +18,7 @@ from ..drawn_files import Targets, targets_of, to_stdout, write
 from ..guard import start
 from ..meter import meter
 from ..parameters import Duration, Vector3
-from ..section_options import SECTION, with_sections
+from ..section_options import SECTION
 from ..streams import Output, result_only
 from ..style_options import STYLE, style_from
 from ..telling import summary, tell_early, tell_notes, tell_plan, tell_report, tell_written, written
@@ -147,8 +146,8 @@ def draw(
     chosen["section"] = sections or None
     told = {"as_json": as_json, "quiet": quiet, "time_limit": time_limit}
     if arrange is not None:
-        if sections:
-            views = with_sections(views, sections, PROJECTION_METHODS[arrange].usual)  # type: ignore[arg-type]
+        if views:
+            views = _with_sections(views, sections)
         _check_arranged(all_pages or names_a_page(source, chosen["page"]), explain)
         request = request_of(style=style_from(chosen), **chosen)
         draw_arranged_page(source, outputs, arrange, views, format, request, printed, told)
@@ -160,8 +159,7 @@ def draw(
         draw_document_pages(source, outputs, page, format, asked, told)
         return
     started = time.perf_counter() - time.process_time()  # the time of loading counts as well
-    if sections:
-        views = with_sections(views, sections, ())
+    views = _with_sections(views, sections)
     names = names_of(views, chosen["eye"])
     views = views or ("iso",)
     style = style_from(chosen)
@@ -196,6 +194,15 @@ def draw(
             out.put(summary(drawings, targets))
     for drawing, row in zip(drawings, targets, strict=True):
         tell_written(written(drawing, row), quiet)
+
+
+def _with_sections(views: tuple[View, ...], sections: dict[str, Any]) -> tuple[View, ...]:
+    """The views that were asked for, and those that are cut."""
+    if not sections:
+        return views
+    from hlr.request.section import with_sections
+
+    return with_sections(views, sections)
 
 
 def _check_arranged(of_document: bool, explain: bool) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import sysconfig
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
@@ -90,7 +91,7 @@ def _facts(drawing: Drawing, writing: float) -> dict[str, Any]:
         "width_mm": bounds.x1 - bounds.x0,
         "height_mm": bounds.y1 - bounds.y0,
         "lines": {"visible": visible, "hidden": len(drawing.lines) - visible},
-        "parts": len(drawing.parts) // (len(drawing.sheet.views) if drawing.sheet is not None else 1),
+        "parts": _most_parts(drawing),
         "accuracy": accuracies(drawing),
         "notes": [note.as_dict() | {"warning": note.is_warning} for note in drawing.notes],
         "seconds": {stage: round(s, 4) for stage, s in ({**drawing.timings} | {"write": writing}).items()},
@@ -128,3 +129,11 @@ def _peak_memory_mb() -> float:
         return 0.0
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return round(peak / (1e6 if sys.platform == "darwin" else 1e3), 1)
+
+
+def _most_parts(drawing: Drawing) -> int:
+    """The parts of a drawing; of several views, the most that one of them shows: a section may show fewer."""
+    if drawing.sheet is None:
+        return len(drawing.parts)
+    shown = Counter(part.name.partition("/")[0] for part in drawing.parts)
+    return max(shown.values(), default=0)

@@ -54,7 +54,11 @@ def check(values: Mapping[str, Any], views: tuple[Any, ...], root: str, arrange:
     from hlr.tables.projection_methods import PROJECTION_METHODS
 
     options = checked(options_of(values, root))
-    checked_views(views, options)
+    views = tuple(checked_views(views, options))
+    if options.section is not None:
+        from hlr.request.section import check_sections
+
+        check_sections(options.section, views, by_name=bool(arrange))
     if arrange:
         method = PROJECTION_METHODS[arrange]
         check_arranged(options)
@@ -65,7 +69,10 @@ def wrong_one(values: Mapping[str, Any], root: str, arrange: str = "") -> str | 
     """The first of these options that is refused by itself; None: only together they are."""
     for name, value in values.items():
         try:
-            check({name: value}, ("iso",), root, arrange)
+            # Some sections are said by their views.
+            views = tuple(value) if name == "section" and isinstance(value, Mapping) else ("iso",)
+            beside = {"section": {"iso": True}} if name == "uncut" and values.get("section") else {}
+            check({name: value, **beside}, views, root, arrange)
         except HlrError:
             return name
     return None

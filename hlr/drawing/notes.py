@@ -25,6 +25,7 @@ NoteCode = Literal[
     "room-unknown",
     "nothing-in-view",
     "section-not-hatched",
+    "section-not-marked",
     "over-time",
     "script-shape",
     "stray-parts",
@@ -56,6 +57,7 @@ CODES: dict[NoteCode, str] = {
     "room-unknown": "the template of a page does not say where views may lie: they may lie on its title block",
     "nothing-in-view": "there is not a line in the drawing",
     "section-not-hatched": "the plane of a section only touches the model, or cuts parts that are not closed",
+    "section-not-marked": "no view of a page sees the plane of a section from its edge, so that none shows where it is",
     "over-time": "reading and the coarsest drawing took longer than the time that was given",
     "script-shape": "which of its shapes a script has shown, or is taken to have meant",
     "stray-parts": "a few parts far from the rest make the drawing several times as large",
@@ -83,6 +85,7 @@ REMARKS: frozenset[NoteCode] = frozenset(
         "room-unknown",
         "script-shape",
         "section-not-hatched",
+        "section-not-marked",
         "stray-parts",
         "thin-lines",
     }

@@ -13,7 +13,20 @@ def printed(drawing: Drawing, solid: bool = False) -> str:
     solid: for formats that know no currentColor.
     """
     sheet = drawing.sheet
-    if sheet is None or sheet.template or not sheet.method:
-        return "" if sheet is None else sheet.template
-    pen, page = usual_pens_of(drawing).pen("smooth", True), drawing.area
-    return projection_symbol(sheet.method, page.width, page.height, pen.solid if solid else pen.color, pen.width)
+    if sheet is None:
+        return ""
+    if not sheet.method:
+        return sheet.template
+    pens, page = usual_pens_of(drawing), drawing.area
+    pen, wide = pens.pen("smooth", True), pens.pen("sharp", True)
+    color = wide.solid if solid else wide.color
+    marks = ""
+    if sheet.marks:
+        from hlr.drawing.section_marks import marks_svg
+
+        marks = marks_svg(sheet.marks, page.height, color, (wide.width, pen.width))
+    if sheet.template:
+        return sheet.template + marks
+    return marks + projection_symbol(
+        sheet.method, page.width, page.height, pen.solid if solid else pen.color, pen.width
+    )

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from hlr.drawing.section_marks import SectionMark
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,6 +18,7 @@ class SheetView:
     scale      paper to model
     place      millimetres from the lower left corner of the page to the middle of the view
     rotation   degrees anticlockwise
+    letter     of a section: A for A-A; empty where the model is whole
     direction  toward the viewer; right: the direction to the right on paper, before the rotation
     """
 
@@ -24,6 +29,7 @@ class SheetView:
     rotation: float
     direction: tuple[float, float, float]
     right: tuple[float, float, float]
+    letter: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,8 +41,10 @@ class Sheet:
               view shows what it likes
     template  what is printed under them, and texts beside them, as SVG elements in millimetres from the page's upper
               left corner
+    marks     of the sections among arranged views
     """
 
     views: tuple[SheetView, ...]
     template: str = ""
     method: str = ""
+    marks: tuple[SectionMark, ...] = ()

@@ -30,26 +30,50 @@ class Mark:
     dashes: tuple[float, ...]
 
 
-def section_line(mark: Mark, ends: tuple[Point, Point], back: Point, height: float) -> str:
-    """A section line as SVG: from end to end, with an arrow at each that looks as the viewer of the section does.
+@dataclass(frozen=True, slots=True)
+class SectionEnd:
+    """An end of a section line, on the page.
 
-    ends: on the page; back: from there to the viewer, of length one; height: of the page
+    arrow   its three corners, the tip first; tail: from its end to the arrow
+    letter  the middle of the letter
     """
-    group = _group(mark)
+
+    arrow: tuple[Point, Point, Point]
+    tail: tuple[Point, Point]
+    letter: Point
+
+
+def section_ends(ends: tuple[Point, Point], back: Point, tail: float = TAIL) -> tuple[SectionEnd, SectionEnd]:
+    """Both ends of a section line: each has an arrow that looks as the viewer of the section does.
+
+    ends: on the page; back: from there to the viewer, of length one; tail: of the arrow with its tail, millimetres
+    """
     a, b = ends
-    _line(group, mark, [a, b], height)
     along = _unit((b[0] - a[0], b[1] - a[1]))
-    for (x, y), side in ((a, -1.0), (b, 1.0)):
-        neck = (x + ARROW * back[0], y + ARROW * back[1])
-        tail = (x + TAIL * back[0], y + TAIL * back[1])
-        _line(group, mark, [tail, neck], height)
-        left, right = (
-            (neck[0] + turn * HALF_ARROW * back[1], neck[1] - turn * HALF_ARROW * back[0]) for turn in (1.0, -1.0)
-        )
-        arrow = ElementTree.SubElement(group, "path", {"d": _steps([(x, y), left, right], height) + " Z"})
+    one, other = (_section_end(end, side, along, back, tail) for end, side in ((a, -1.0), (b, 1.0)))
+    return one, other
+
+
+def _section_end(end: Point, side: float, along: Point, back: Point, tail: float) -> SectionEnd:
+    x, y = end
+    neck = (x + ARROW * back[0], y + ARROW * back[1])
+    left, right = (
+        (neck[0] + turn * HALF_ARROW * back[1], neck[1] - turn * HALF_ARROW * back[0]) for turn in (1.0, -1.0)
+    )
+    begin = (x + tail * back[0], y + tail * back[1])
+    letter = (x + side * LETTER * along[0], y + side * LETTER * along[1])
+    return SectionEnd((end, left, right), (begin, neck), letter)
+
+
+def section_line(mark: Mark, ends: tuple[Point, Point], back: Point, height: float) -> str:
+    """A section line as SVG, from end to end; arguments as of `section_ends`, and the height of the page."""
+    group = _group(mark)
+    _line(group, mark, list(ends), height)
+    for end in section_ends(ends, back):
+        _line(group, mark, list(end.tail), height)
+        arrow = ElementTree.SubElement(group, "path", {"d": _steps(list(end.arrow), height) + " Z"})
         arrow.attrib.update({"fill": mark.color, "stroke": "none"})
-        letter = (x + side * LETTER * along[0], y + side * LETTER * along[1])
-        _letter(group, mark, letter, height)
+        _letter(group, mark, end.letter, height)
     return _written(group)
 
 

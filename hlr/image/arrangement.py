@@ -47,23 +47,24 @@ def inside_margins(paper: Paper) -> Room:
 
 @dataclass(frozen=True, slots=True)
 class Arrangement:
-    """A scale (paper : model), the room on a page, and the cell of each view."""
+    """A scale (paper : model), the room on a page, the cell of each view, and the least gap between views in mm."""
 
     scale: float
     room: Room
     cells: tuple[Cell, ...]
+    gap: float = LEAST_GAP
 
     def places(self, sizes: Sequence[Size]) -> list[tuple[float, float]]:
         """The middle of each view's cell, millimetres from the page's lower left corner; sizes: at 1:1."""
         columns, rows = _spans(sizes, self.cells)
-        x = _middles(columns, self.scale, self.room.x, self.room.width)
-        y = _middles(rows, self.scale, self.room.y, self.room.height)
+        x = _middles(columns, self.scale, self.room.x, self.room.width, self.gap)
+        y = _middles(rows, self.scale, self.room.y, self.room.height, self.gap)
         return [(x[column], y[row]) for column, row in self.cells]
 
     def needs(self, sizes: Sequence[Size]) -> Size:
         """Width and height of all views at their scale, with the least gaps between them, millimetres."""
         width, height = (
-            self.scale * sum(span.values()) + LEAST_GAP * (len(span) - 1) for span in _spans(sizes, self.cells)
+            self.scale * sum(span.values()) + self.gap * (len(span) - 1) for span in _spans(sizes, self.cells)
         )
         return width, height
 
@@ -89,32 +90,33 @@ def arranged(
     method: ProjectionMethod,
     rooms: Sequence[Room],
     scale: float | None,
+    gap: float = LEAST_GAP,
 ) -> Arrangement:
     """The arrangement of views that allows the largest scale; where several rooms do, that in the first of them.
 
     own: the cell that the method has for each view, None for those that lie in any free one; sizes: width and height of
-    each at 1:1, millimetres; scale: None: the largest standard one.
+    each at 1:1, millimetres; scale: None: the largest standard one; gap: the least between views, millimetres.
 
     Raises OptionError for a page without room for the views.
     """
     best: tuple[float, Arrangement] | None = None
     for room in rooms:
-        for cells in _choices(own, sizes, method, room):
-            most = _most(sizes, cells, room)
+        for cells in _choices(own, sizes, method, room, gap):
+            most = _most(sizes, cells, room, gap)
             chosen = scale if scale is not None else standard_scale(most) if most > 0.0 else 0.0
             # With a scale that is given, the one that has more to spare.
             rank = most if scale is not None else chosen
             if chosen > 0.0 and (best is None or rank > best[0]):
-                best = rank, Arrangement(chosen, room, cells)
+                best = rank, Arrangement(chosen, room, cells, gap)
     if best is None:
         page = f"a page of {rooms[0].paper.width:g} x {rooms[0].paper.height:g} mm"
-        apart = f"{len(own)} views with {LEAST_GAP:g} mm between them"
+        apart = f"{len(own)} views with {gap:g} mm between them"
         raise OptionError(f"{page} has no room for {apart}: give a larger page, or fewer views")
     return best[1]
 
 
 def _choices(
-    own: Sequence[Cell | None], sizes: Sequence[Size], method: ProjectionMethod, room: Room
+    own: Sequence[Cell | None], sizes: Sequence[Size], method: ProjectionMethod, room: Room, gap: float
 ) -> Iterator[tuple[Cell, ...]]:
     """Cells of all views: each way to place the first free ones, the better places first; the best for all others."""
     taken = [cell for cell in own if cell is not None]
@@ -124,21 +126,21 @@ def _choices(
         cells = dict(zip(free, first, strict=False)) | {i: cell for i, cell in enumerate(own) if cell is not None}
         for i in free[TRIED:]:
             left = [cell for cell in places if cell not in cells.values()]
-            scales = [_scale([*cells, i], [*cells.values(), cell], sizes, room) for cell in left]
+            scales = [_scale([*cells, i], [*cells.values(), cell], sizes, room, gap) for cell in left]
             cells[i] = left[scales.index(max(scales))]
         yield tuple(cells[i] for i in range(len(own)))
 
 
-def _scale(views: Sequence[int], cells: Sequence[Cell], sizes: Sequence[Size], room: Room) -> float:
-    most = _most([sizes[i] for i in views], cells, room)
+def _scale(views: Sequence[int], cells: Sequence[Cell], sizes: Sequence[Size], room: Room, gap: float) -> float:
+    most = _most([sizes[i] for i in views], cells, room, gap)
     return standard_scale(most) if most > 0.0 else 0.0
 
 
-def _most(sizes: Sequence[Size], cells: Sequence[Cell], room: Room) -> float:
+def _most(sizes: Sequence[Size], cells: Sequence[Cell], room: Room, gap: float) -> float:
     """The largest scale at which the views fit; 0 where the gaps alone are too wide."""
     scales = []
     for span, side in zip(_spans(sizes, cells), (room.width, room.height), strict=True):
-        left, total = side + SLACK - LEAST_GAP * (len(span) - 1), sum(span.values())
+        left, total = side + SLACK - gap * (len(span) - 1), sum(span.values())
         if left <= SLACK:
             return 0.0
         if total > 0.0:
@@ -156,10 +158,10 @@ def _spans(sizes: Sequence[Size], cells: Sequence[Cell]) -> tuple[dict[int, floa
     return dict(sorted(columns.items())), dict(sorted(rows.items()))
 
 
-def _middles(span: dict[int, float], scale: float, begin: float, side: float) -> dict[int, float]:
+def _middles(span: dict[int, float], scale: float, begin: float, side: float, least: float) -> dict[int, float]:
     """Where the middle of each column or row lies, with even gaps, all of them in the middle of a side of the room."""
     total = scale * sum(span.values())
-    gap = min(max((side - total) / (len(span) + 1), LEAST_GAP), MOST_GAP)
+    gap = min(max((side - total) / (len(span) + 1), least), max(least, MOST_GAP))
     at = begin + 0.5 * (side - total - gap * (len(span) - 1))
     found = {}
     for number, size in span.items():

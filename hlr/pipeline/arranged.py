@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from hlr.drawing.page import Page
 from hlr.drawing.scale import ratio
 from hlr.drawing.sheet import Sheet, SheetView
 from hlr.errors import OptionError
-from hlr.image.arrangement import SLACK, Arrangement, Room, Size, arranged, check_views, inside_margins
+from hlr.image.arrangement import LEAST_GAP, SLACK, Arrangement, Room, Size, arranged, check_views, inside_margins
 from hlr.image.method_cells import own_cells
 from hlr.image.placement import size_notes
 from hlr.linework.legible import legible
@@ -36,6 +36,9 @@ from hlr.source.page_template import PageTemplate, Rectangle
 from hlr.source.selection import open_selected
 from hlr.tables.projection_methods import Cell, ProjectionMethod
 from hlr.tables.sheets import USUAL, Paper, papers
+
+if TYPE_CHECKING:
+    from hlr.drawing.section_marks import SectionMark
 
 OF_ONE_VIEW = {"page-too-small", "paper-size"}
 """Notes that are about the page of a single view."""
@@ -133,24 +136,32 @@ def draw_on_one_page(
     check_views(asked.names, asked.cells, method)
     source = open_selected(source, options)
     alone = replace(options, details=True, strict=False, same_scale=False)
+    if options.section is not None:
+        from hlr.request.section import check_sections
+
+        check_sections(options.section, views, by_name=True)
     session = Session(source, views, alone)
     reading = perf_counter() - started
     sizes: list[Size] = [(w * at.unit, h * at.unit) for at in session.placements for w, h in [at.size]]
-    rooms = printed.rooms(options)
+    rooms, gap = printed.rooms(options), LEAST_GAP
+    if options.section is not None:
+        from hlr.drawing.section_marks import REACH
+
+        rooms, gap = [_inside(room, REACH) for room in rooms], 2.0 * REACH
     scale = None if options.scale is None else float(options.scale)
-    found = arranged(asked.cells, sizes, method, rooms, scale)
+    found = arranged(asked.cells, sizes, method, rooms, scale, gap)
     for _ in range(MOST_DRAWINGS):
         paper = found.room.paper
         on_page = replace(alone, scale=found.scale, page=(paper.width, paper.height))
         drawings = draw_views(source, views, on_page, progress)
-        sizes = [(d.bounds.width / found.scale, d.bounds.height / found.scale) for d in drawings]
-        better = arranged(asked.cells, sizes, method, rooms, scale)
+        sizes = _sizes(drawings, found, asked)
+        better = arranged(asked.cells, sizes, method, rooms, scale, gap)
         if better.scale <= found.scale:
             break
         found = better
     drawing = _together(drawings, sizes, found, asked, options, printed)
     if scale is not None:
-        fits = arranged(asked.cells, sizes, method, rooms, None).scale
+        fits = arranged(asked.cells, sizes, method, rooms, None, gap).scale
         drawing = replace(drawing, notes=(*drawing.notes, *_of_scale(sizes, found, fits)))
     if options.strict:
         refuse_warnings(drawing.notes)
@@ -177,17 +188,26 @@ def _together(
     """One drawing of all views."""
     placed = _placed(drawings, sizes, found, asked)
     lines: list[Line] = []
+    hatches: list[Line] = []
     parts: list[DrawnPart] = []
     counters = Counter[str]()
     for each in placed:
         first, stay = len(parts), np.eye(2)
-        lines += [moved(line, stay, each.shift, first) for line in each.drawing.lines]
+        for line in each.drawing.lines:
+            # Hatches are close together, and no reason for thinner pens.
+            (hatches if line.kind == "hatch" else lines).append(moved(line, stay, each.shift, first))
         parts += [replace(part, name=f"{each.name}/{part.name}") for part in each.drawing.parts]
         counters.update(each.drawing.counters)
     paper, style = found.room.paper, style_of(options.style)
     coarsest = max((drawing.accuracy for drawing in drawings), key=lambda accuracy: accuracy.used)
     room = (paper.width, paper.height)
     shown = legible(lines, found.scale, coarsest.used, style, room, options, Planner(drawing_effects(), options))
+    marks: dict[str, SectionMark] = {}
+    marking: list[Note] = []
+    if options.section is not None:
+        from hlr.pipeline.section.on_page import section_marks
+
+        marks, marking = section_marks(placed, [cell is not None for cell in asked.cells])
     return Drawing(
         source=drawings[0].source,
         view=DrawnView(asked.method.name, "orthographic", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
@@ -197,20 +217,70 @@ def _together(
         unit=1.0,
         up_axis=((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
         parts=tuple(parts),
-        lines=shown.lines,
-        notes=tuple(dict.fromkeys((*_notes(drawings), *shown.notes, *printed.notes()))),
+        lines=(*shown.lines, *hatches) if hatches else shown.lines,
+        notes=tuple(dict.fromkeys((*_notes(drawings), *shown.notes, *printed.notes(), *marking))),
         counters=dict(counters),
         page=Page(paper.name, paper.width, paper.height, 0.0, 0.0),
-        sheet=Sheet(tuple(_shown(each, found.scale) for each in placed), printed.svg(found.scale), asked.method.name),
+        sheet=Sheet(
+            tuple(_shown(each, found.scale, marks) for each in placed),
+            printed.svg(found.scale),
+            asked.method.name,
+            tuple(marks.values()),
+        ),
         style=style,
         group=shown.group,
         reading=drawings[0].reading,
     )
 
 
+_Axis = tuple[int, int, tuple[float, ...]]
+"""To the right or up, the column or row, and where that points in the model."""
+
+
+def _extents(drawings: Sequence[Drawing], found: Arrangement, asked: _Views) -> dict[_Axis, tuple[float, float]]:
+    """From where to where all views of a column or a row reach, millimetres: a section may show less than others."""
+    extents: dict[_Axis, tuple[float, float]] = {}
+    for i, drawing in enumerate(drawings):
+        bounds, view = drawing.bounds, drawing.view
+        if asked.cells[i] is None:
+            continue
+        for k, axis, ends in ((0, view.right, (bounds.x0, bounds.x1)), (1, view.up, (bounds.y0, bounds.y1))):
+            low, high = (end + drawing.origin[k] for end in ends)
+            before = extents.get((k, found.cells[i][k], axis), (low, high))
+            extents[k, found.cells[i][k], axis] = min(low, before[0]), max(high, before[1])
+    return extents
+
+
+def _sizes(drawings: Sequence[Drawing], found: Arrangement, asked: _Views) -> list[Size]:
+    """Width and height of each view at 1:1, as drawn; a view in line with others is as large as all of them."""
+    sizes = [(d.bounds.width / found.scale, d.bounds.height / found.scale) for d in drawings]
+    if all(drawing.section is None for drawing in drawings):
+        return sizes
+    extents = _extents(drawings, found, asked)
+    for i, (drawing, cell) in enumerate(zip(drawings, found.cells, strict=True)):
+        if asked.cells[i] is not None:
+            across, up = extents[0, cell[0], drawing.view.right], extents[1, cell[1], drawing.view.up]
+            sizes[i] = (across[1] - across[0]) / found.scale, (up[1] - up[0]) / found.scale
+    return sizes
+
+
+def _inside(room: Room, border: float) -> Room:
+    """A room without its borders, millimetres wide, on which the marks of sections may lie."""
+    border = min(border, 0.25 * room.width, 0.25 * room.height)
+    return replace(
+        room,
+        x=room.x + border,
+        y=room.y + border,
+        width=room.width - 2.0 * border,
+        height=room.height - 2.0 * border,
+    )
+
+
 def _placed(drawings: Sequence[Drawing], sizes: Sequence[Size], found: Arrangement, asked: _Views) -> list[_Placed]:
     """The views at their places. Those of a column and a row lie exactly in line with the first of it."""
-    middles: dict[tuple[int, int, tuple[float, ...]], float] = {}
+    middles: dict[_Axis, float] = {}
+    if any(drawing.section is not None for drawing in drawings):
+        middles = {axis: 0.5 * (low + high) for axis, (low, high) in _extents(drawings, found, asked).items()}
     placed = []
     for i, place in enumerate(found.places(sizes)):
         drawing, shift = drawings[i], []
@@ -240,6 +310,7 @@ def _of_scale(sizes: Sequence[Size], found: Arrangement, fits: float) -> list[No
     return notes
 
 
-def _shown(placed: _Placed, scale: float) -> SheetView:
-    view = placed.drawing.view
-    return SheetView(placed.name, view.name, scale, placed.place, 0.0, view.direction, view.right)
+def _shown(placed: _Placed, scale: float, marks: Mapping[str, SectionMark]) -> SheetView:
+    view, mark = placed.drawing.view, marks.get(placed.name)
+    letter = "" if mark is None else mark.letter
+    return SheetView(placed.name, view.name, scale, placed.place, 0.0, view.direction, view.right, letter)

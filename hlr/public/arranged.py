@@ -47,10 +47,12 @@ def draw_arranged(
 
     source    as of `hlr.draw`
     method    "first-angle" (Europe, Asia) or "third-angle" (America): on which side of the front view the others lie
-    views     names or directions; None: front, top, left (first-angle) or right (third-angle), and iso. Other views
-              lie in a cell that is free
+    views     names or directions; None: front, top, left (first-angle) or right (third-angle), iso, and those that are
+              cut. Other views lie in a cell that is free
     options   as of `hlr.draw`, without fit, window, up, perspective, fill, report and within; None: the defaults. The
-              scale is the largest standard one at which all views fit the page, unless one is given
+              scale is the largest standard one at which all views fit the page, unless one is given. Sections are said
+              by their views, {"front": True}: each has its name, A-A, above it, and in a view that sees its plane from
+              the edge a cutting line with arrows and letters
     progress  as of `hlr.draw`
     template  an SVG with a frame and a title block, such as those of FreeCAD's TechDraw; it says how large the page is,
               and is printed under the views. None: the symbol of the method in the lower right corner
@@ -79,6 +81,10 @@ def draw_arranged(
     printed = _printed(template, texts or {}, room, options)
     with at_most(options.threads):
         chosen = cast("Sequence[View]", row.usual) if views is None else views
+        if views is None and isinstance(options.section, Mapping):
+            from hlr.request.section import with_sections
+
+            chosen = with_sections(chosen, options.section)
         return draw_on_one_page(source, chosen, row, options, printed, progress)
 
 

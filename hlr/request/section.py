@@ -60,6 +60,12 @@ def check_sections(section: Any, views: Sequence[View], *, by_name: bool = False
             )
 
 
+def with_sections(views: Sequence[View], section: Mapping[str, SectionPlace]) -> tuple[View, ...]:
+    """The views, and after them those that are cut and are not among them. section: checked."""
+    names = [directed(view)[0] for view in views]
+    return (*views, *(cast(View, _vector(name) if "," in name else name) for name in section if name not in names))
+
+
 def axis_of(direction: Vector) -> int | None:
     """The axis that a direction lies along: 0, 1 or 2; None: it lies along none."""
     return None if pictorial(direction) else max(range(3), key=lambda k: abs(direction[k]))

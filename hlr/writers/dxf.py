@@ -55,6 +55,10 @@ def dxf(drawing: Drawing, unit: int = MILLIMETRES) -> bytes:
         if drawing.fill is not None and modern:
             document.layers.add(FILL, color=CONTRAST)
             hatch(model, painted(drawing, drawing.fill), FILL)
+        if drawing.sheet is not None and drawing.sheet.marks:
+            from hlr.writers.dxf_marks import add_marks
+
+            add_marks(document, drawing, modern)
         first = int(str(document.entitydb.handles), 16)
         document.entitydb.handles.reset(f"{first + len(drawing.lines):X}")
         for name in sorted(document.entitydb.dxf_types_in_use()):  # ezdxf takes them as they come out of a set

@@ -27,6 +27,9 @@ Key = tuple[int, int, bool]
 FILL = "FILL"
 """The layer of filled faces."""
 
+MARKS = "SECTION_MARKS"
+"""The layer of cutting lines, and of the names of sections."""
+
 CONTRAST = 7
 """Number of the colour that is black on white and white on black."""
 
@@ -61,7 +64,7 @@ class Layers:
     true_colors: bool
     looks: dict[str, Look] = field(default_factory=dict)
     named: dict[str, str] = field(default_factory=dict)
-    taken: set[str] = field(default_factory=lambda: {"0", "defpoints", FILL.casefold()})
+    taken: set[str] = field(default_factory=lambda: {"0", "defpoints", FILL.casefold(), MARKS.casefold()})
     dashes: dict[tuple[float, float], str] = field(default_factory=dict)
 
     def tags(self) -> dict[Key, str]:

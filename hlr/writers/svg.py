@@ -188,9 +188,10 @@ def _view(view: SheetView) -> str:
     """A view of a page."""
     vectors = {"place": view.place, "direction": view.direction, "right": view.right}
     fields = " ".join(f'{key}="{_vector(value)}"' for key, value in vectors.items())
+    cut = f' section="{view.letter}-{view.letter}"' if view.letter else ""
     return (
         f'<view name={_quoted(view.name)} label={_quoted(view.label)} scale="{ratio(view.scale)}" '
-        f'rotation="{view.rotation + 0.0:.9g}" {fields}/>\n'
+        f'rotation="{view.rotation + 0.0:.9g}" {fields}{cut}/>\n'
     )
 
 

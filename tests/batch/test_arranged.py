@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import pytest
+from batch.models import Silent
 
 from hlr.batch.carry_out import carry_out
+from hlr.batch.kept import Kept
 from hlr.batch.keys import Digests, key_of
 from hlr.batch.manifest import manifest_of
 from hlr.batch.plan import plan
+from hlr.batch.request import wrong_one
+from hlr.batch.run import run
 from hlr.errors import OptionError
 
 MESH = "OFF\n4 4 0\n0 0 0\n30 0 0\n0 20 0\n0 0 10\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
@@ -38,6 +42,41 @@ def test_one_file_holds_all_views(tmp_path, keys, views):
     assert svg.count(b"<view ") == len(views)
     assert pdf.startswith(b"%PDF")
     assert [drawing["view"] for drawing in outcome.drawings] == [keys["arrange"]]
+
+
+def test_sections_are_said_by_their_views(tmp_path):
+    section = {"front": True, "left": [5, 0, 0]}
+    _, (page,) = jobs(tmp_path, arrange="first-angle", section=section)
+    outcome = carry_out(page)
+    assert outcome.failure is None
+    ((svg,),) = outcome.contents
+    assert svg.count(b"A-A</text>") == svg.count(b"B-B</text>") == 1
+    assert outcome.drawings[0]["parts"] == 1
+    _, alone = jobs(tmp_path, views=["front", "top"], section={"front": True})
+    assert [b'<g class="hatch"' in row[0] for row in carry_out(alone[0]).contents] == [True, False]
+    assert len({key_of(job, Digests()) for job in (page, alone[0], jobs(tmp_path, views=["front", "top"])[1][0])}) == 3
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"section": "front"}, "section needs True for the middle of the model"),
+        ({"section": {"back": True}}, "section back is none of the views"),
+        ({"section": True, "arrange": "first-angle"}, "a page of several views has sections by name"),
+        ({"uncut": ["bolt"]}, "uncut is for parts of a section"),
+        ({"section": {"front": True}, "uncut": ["bolt"], "crease": 999}, "crease 999 is not a crease angle"),
+    ],
+)
+def test_sections_that_cannot_be_are_refused_before_anything_is_drawn(tmp_path, keys, message):
+    found, _ = jobs(tmp_path, **keys)
+    with pytest.raises(OptionError, match=message):
+        run(plan(found, tmp_path / "out"), Kept(None, Digests()), pytest.fail, Silent())
+
+
+def test_the_key_that_is_wrong_is_found_beside_sections():
+    values = {"section": {"front": True}, "uncut": ["bolt"], "crease": 999}
+    assert wrong_one(values, "", "first-angle") == wrong_one(values, "") == "crease"
+    assert wrong_one({"hidden": True, "section": {"front": "x"}}, "") == "section"
 
 
 def test_another_method_is_another_drawing(tmp_path):

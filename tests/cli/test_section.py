@@ -1,5 +1,6 @@
 """`--section` and `--uncut`: which views are cut and where, and what is refused."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -76,6 +77,22 @@ def test_what_cannot_be_cut_is_refused_in_one_sentence(draw, tmp_path, arguments
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.parametrize(
+    ("views", "shown"),
+    [
+        ([], ["front", "top", "left", "iso", "right"]),
+        (["--view", "front", "--view", "iso"], ["front", "iso", "right"]),
+    ],
+)
+def test_sections_on_one_page(draw, tmp_path, views, shown):
+    asked = ["--arrange", "first-angle", *views, "--section", "front@60", "--section", "right"]
+    done = draw(STEP, *asked, "-o", "a.svg")
+    assert (done.code, done.err) == (0, "")
+    svg = (tmp_path / "a.svg").read_text("utf-8")
+    assert re.findall(r'<view name="(\w+)"', svg) == shown
+    assert re.findall(r">([^<>]+)</text>", svg) == ["A", "A", "A-A", "B", "B", "B-B"]
+
+
 def test_pages_of_documents_have_their_own_sections(draw):
     done = draw(HOUSING, "--page", "Page", "--section", "front")
     assert done.code == 2
@@ -95,7 +112,7 @@ def test_nothing_of_it_is_loaded_where_no_section_is_asked_for(tmp_path):
 
     program = (
         "import sys, hlr; hlr.draw(([(0, 0, 0), (30, 0, 0), (0, 20, 0)], [(0, 1, 2)])).save('a.svg'); "
-        "print(*(name for name in sys.modules if '.section' in name or 'hatch' in name or 'cut_faces' in name or 'half_space' in name))"
+        "print(*(name for name in sys.modules if '.section' in name or 'hatch' in name or 'half_space' in name))"
     )
     done = subprocess.run(
         [sys.executable, "-P", "-c", program], capture_output=True, text=True, check=True, cwd=tmp_path

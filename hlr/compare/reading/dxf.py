@@ -21,6 +21,7 @@ from hlr.compare.reading.dxf_looks import Looks
 from hlr.errors import SourceError
 from hlr.tables.line_classes import LINE_CLASSES
 from hlr.writers.dxf_entities import APPLICATION
+from hlr.writers.dxf_layers import MARKS
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
@@ -116,7 +117,9 @@ def _read(document: Document, damaged: int, sketch: Sketch, path: Path) -> About
         found.left_out["damaged entries"] = damaged
     for entity, layer, linetype in _entities(document, looks, path.name):
         kind = entity.dxftype()
-        if looks.off(layer) or entity.dxf.get("invisible", 0):
+        if layer == MARKS and document.appids.has_entry(APPLICATION):
+            found.left_out["marks of sections"] += 1
+        elif looks.off(layer) or entity.dxf.get("invisible", 0):
             found.left_out["lines that are not shown"] += kind in CURVES
         elif kind not in CURVES:
             found.left_out[WORDS.get(kind, kind)] += 1

@@ -1,0 +1,120 @@
+"""How a section is marked on a page of arranged views (ISO 128): by a cutting line in another view, and by its name.
+
+The view sees the plane from its edge; the line has thick ends, arrows and letters. The name stands above the section.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from hlr.drawing.view_marks import FONT, LETTER, Point, SectionEnd, section_ends
+
+BEYOND = 5.0
+"""Millimetres: how far a cutting line goes beyond the view, with its thick ends."""
+
+TAIL = 9.0
+"""Millimetres: length of an arrow and its tail."""
+
+ABOVE = 3.0
+"""Millimetres from a view to the name above it."""
+
+REACH = BEYOND + 1.5 * LETTER
+"""Millimetres from a view to the farthest point of its marks."""
+
+CHAIN = (6.0, 1.0, 1.0, 1.0)
+"""Millimetres: dashes and gaps of a cutting line."""
+
+LETTERS = "ABCDEFGHJKLMNPRSTUVWXYZ"
+"""Of sections, in their order; I, O and Q look like figures."""
+
+
+@dataclass(frozen=True, slots=True)
+class SectionMark:
+    """The marks of one section. Millimetres from the lower left corner of the page.
+
+    letter  A for the section A-A
+    name    the middle of that name, above the view
+    line    the cutting line, from end to end; None where no view sees the plane from its edge
+    back    from the line to the viewer of the section, of length one
+    """
+
+    letter: str
+    name: Point
+    line: tuple[Point, Point] | None = None
+    back: Point = (0.0, 0.0)
+
+    @property
+    def title(self) -> str:
+        """A-A."""
+        return f"{self.letter}-{self.letter}"
+
+
+@dataclass(frozen=True, slots=True)
+class MarkShapes:
+    """What is drawn of a mark. wide, chain: lines, the latter thin, dashed and dotted; texts: by their middles."""
+
+    wide: list[tuple[Point, Point]]
+    chain: list[tuple[Point, Point]]
+    arrows: list[tuple[Point, Point, Point]]
+    texts: list[tuple[Point, str]]
+
+
+def letter_of(number: int) -> str:
+    """The letter of a section: A to Z, then A2 and so on."""
+    turn, which = divmod(number, len(LETTERS))
+    return LETTERS[which] + (str(turn + 1) if turn else "")
+
+
+def shapes_of(mark: SectionMark) -> MarkShapes:
+    """The lines, arrows and texts of a mark."""
+    texts = [(mark.name, mark.title)]
+    if mark.line is None:
+        return MarkShapes([], [], [], texts)
+    ends: Sequence[SectionEnd] = section_ends(mark.line, mark.back, TAIL)
+    a, b = mark.line
+    inner = _toward(a, b), _toward(b, a)
+    wide = [(a, inner[0]), (b, inner[1]), *(end.tail for end in ends)]
+    return MarkShapes(
+        wide, [inner], [end.arrow for end in ends], [*((end.letter, mark.letter) for end in ends), *texts]
+    )
+
+
+def marks_svg(marks: Sequence[SectionMark], height: float, color: str, widths: tuple[float, float]) -> str:
+    """The marks as SVG, in millimetres from the upper left corner of a page of this height.
+
+    widths: of wide and narrow lines
+    """
+    return "".join(_svg(shapes_of(mark), height, color, widths) for mark in marks)
+
+
+def _svg(shapes: MarkShapes, height: float, color: str, widths: tuple[float, float]) -> str:
+    def steps(points: Sequence[Point]) -> str:
+        return "M" + "L".join(f"{_n(x)} {_n(height - y)}" for x, y in points)
+
+    wide, narrow = (_n(width) for width in widths)
+    out = [f'<g class="section" fill="none" stroke="{color}" stroke-width="{wide}">']
+    if shapes.wide:
+        out.append(f'<path d="{"".join(map(steps, shapes.wide))}"/>')
+    dashes = " ".join(map(_n, CHAIN))
+    out += [f'<path stroke-width="{narrow}" stroke-dasharray="{dashes}" d="{steps(line)}"/>' for line in shapes.chain]
+    if shapes.arrows:
+        out.append(f'<path fill="{color}" stroke="none" d="{"".join(steps(each) + "Z" for each in shapes.arrows)}"/>')
+    for (x, y), text in shapes.texts:
+        place = f'x="{_n(x)}" y="{_n(height - y + 0.35 * LETTER)}"'
+        out.append(
+            f'<text {place} font-family="{FONT}" font-size="{_n(LETTER)}" text-anchor="middle" fill="{color}" '
+            f'stroke="none">{text}</text>'
+        )
+    return "".join([*out, "</g>\n"])
+
+
+def _toward(end: Point, other: Point) -> Point:
+    """Where the thick end of a line ends."""
+    way = (other[0] - end[0], other[1] - end[1])
+    share = min(BEYOND / (float((way[0] ** 2 + way[1] ** 2) ** 0.5) or 1.0), 0.5)
+    return end[0] + share * way[0], end[1] + share * way[1]
+
+
+def _n(value: float) -> str:
+    return f"{value:.4f}".rstrip("0").rstrip(".") or "0"

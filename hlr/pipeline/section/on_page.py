@@ -1,0 +1,96 @@
+"""The marks of sections among the views of one page: where each plane is seen from its edge, and what it is called."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+
+from hlr.common.types import Floats
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.lines import bounds_of
+from hlr.drawing.notes import Note
+from hlr.drawing.section_marks import ABOVE, BEYOND, SectionMark, letter_of
+from hlr.drawing.view_marks import LETTER, Point
+
+EDGE_ON = 1e-6
+"""Sine of the angle by which the plane of a section may be turned to be seen as a line."""
+
+
+class OnPage(Protocol):
+    """A view at its place. shift (2,): from its own coordinates to those of the page, millimetres."""
+
+    @property
+    def drawing(self) -> Drawing:
+        """The view."""
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+
+    @property
+    def shift(self) -> Floats:
+        """Millimetres."""
+
+
+def section_marks(views: Sequence[OnPage], own: Sequence[bool]) -> tuple[dict[str, SectionMark], list[Note]]:
+    """The mark of each section, by the name of its view, and what is said about them.
+
+    own: of each view, whether it has its own place on the page, as those along the axes have
+    """
+    marks: dict[str, SectionMark] = {}
+    notes = []
+    for view in views:
+        if view.drawing.section is None:
+            continue
+        letter = letter_of(len(marks))
+        base = _base_of(view, views, own)
+        line = None if base is None else _line(view, base)
+        marks[view.name] = SectionMark(letter, _name_place(view), *(line or ()))
+        if base is None:
+            text = f"no view of the page sees the plane of section {letter}-{letter} from its edge: none marks it."
+            notes.append(Note("section-not-marked", text))
+    return marks, notes
+
+
+def _base_of(view: OnPage, views: Sequence[OnPage], own: Sequence[bool]) -> OnPage | None:
+    """The view in which a section is marked: a whole one with a place of its own where there is one."""
+    assert view.drawing.section is not None
+    normal = np.array(view.drawing.section.normal)
+    edge_on = [
+        (each.drawing.section is not None, not has_place, number)
+        for number, (each, has_place) in enumerate(zip(views, own, strict=True))
+        if each is not view and abs(float(normal @ np.array(each.drawing.view.direction))) <= EDGE_ON
+    ]
+    return views[min(edge_on)[2]] if edge_on else None
+
+
+def _line(view: OnPage, base: OnPage) -> tuple[tuple[Point, Point], Point]:
+    """The cutting line of a section in another view, and the direction to its viewer there."""
+    section, drawing = view.drawing.section, base.drawing
+    assert section is not None
+    axes = np.array([drawing.view.right, drawing.view.up])
+    normal, per_model = axes @ np.array(section.normal), drawing.scale * drawing.unit
+    back = normal / float(np.hypot(*normal))
+    along = np.array([back[1], -back[0]])
+    if along[0] < -EDGE_ON or (abs(along[0]) <= EDGE_ON and along[1] < 0.0):
+        along = -along  # from left to right, or up
+    foot = axes @ np.array(section.point) * per_model - np.array(drawing.origin) + base.shift
+    points = np.concatenate([line.points for line in drawing.lines]) + base.shift
+    ahead = (points - foot) @ along
+    a = foot + (float(ahead.min()) - BEYOND) * along
+    b = foot + (float(ahead.max()) + BEYOND) * along
+    return (_pair(a), _pair(b)), _pair(back)
+
+
+def _name_place(view: OnPage) -> Point:
+    """The middle of a section's name."""
+    bounds = bounds_of(view.drawing.lines)
+    x = 0.5 * (bounds.x0 + bounds.x1) + float(view.shift[0])
+    return x, bounds.y1 + float(view.shift[1]) + ABOVE + 0.5 * LETTER
+
+
+def _pair(point: Floats) -> Point:
+    x, y = (np.asarray(point) + 0.0).tolist()
+    return x, y

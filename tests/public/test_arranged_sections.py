@@ -1,0 +1,210 @@
+"""Sections among the views of one page: cutting lines, arrows, letters and names, and where they lie."""
+
+from __future__ import annotations
+
+import re
+
+import cadquery as cq
+import numpy as np
+import pytest
+
+import hlr
+from hlr.drawing.section_marks import BEYOND, LETTERS, REACH, SectionMark, letter_of, shapes_of
+from hlr.errors import OptionError
+
+
+def bracket():
+    """Nothing about it is even: each view shows on which side it lies."""
+    return cq.Workplane().box(60, 40, 12).faces(">Z").workplane().center(15, 8).circle(9).extrude(20)
+
+
+def page_of(method="first-angle", views=None, thing=None, **options):
+    return hlr.draw_arranged(bracket() if thing is None else thing, method, views, hlr.Options(**options))
+
+
+def extent(page, view, hatch=True):
+    """(2, 2) lower left and upper right corner of a view."""
+    of = [x for x in page.lines if page.parts[x.part].name.startswith(f"{view}/") and (hatch or x.kind != "hatch")]
+    points = np.concatenate([line.points for line in of])
+    return np.array([points.min(axis=0), points.max(axis=0)])
+
+
+def test_a_section_takes_the_place_of_its_view():
+    page = page_of(section={"front": True})
+    assert [(view.name, view.letter) for view in page.sheet.views] == [
+        ("front", "A"), ("top", ""), ("left", ""), ("iso", "")
+    ]  # fmt: skip
+    front, top, left = (extent(page, view) for view in ("front", "top", "left"))
+    assert front[:, 0] == pytest.approx(top[:, 0], abs=1e-6)
+    assert front[:, 1] == pytest.approx(left[:, 1], abs=1e-6)
+    assert {page.parts[x.part].name for x in page.lines if x.kind == "hatch"} == {"front/part"}
+
+
+def test_the_cutting_line_lies_where_the_plane_is_and_its_arrows_look_as_the_viewer_does():
+    page = page_of(section={"front": 5.0})
+    (mark,) = page.sheet.marks
+    (scale,) = {view.scale for view in page.sheet.views}
+    low, high = extent(page, "top")
+    (ax, ay), (bx, by) = mark.line
+    # The view from above has y up: -20 to 20 mm.
+    assert (ay, by) == pytest.approx((low[1] + 25.0 * scale, low[1] + 25.0 * scale), abs=1e-3)
+    assert (ax, bx) == pytest.approx((low[0] - BEYOND, high[0] + BEYOND), abs=1e-3)
+    assert mark.back == pytest.approx((0.0, -1.0))
+    assert (mark.letter, mark.title) == ("A", "A-A")
+    front = extent(page, "front")
+    assert mark.name[0] == pytest.approx(front[:, 0].mean(), abs=1e-3)
+    assert front[1, 1] < mark.name[1] < front[1, 1] + REACH
+
+
+@pytest.mark.parametrize(
+    ("method", "view", "back"),
+    [
+        ("first-angle", "left", (-1.0, 0.0)),
+        ("third-angle", "right", (1.0, 0.0)),
+        ("third-angle", "top", (0.0, 1.0)),
+        ("first-angle", "bottom", (0.0, -1.0)),
+    ],
+)
+def test_sections_from_other_sides_are_marked_in_the_front_view(method, view, back):
+    page = page_of(method, section={view: True})
+    (mark,) = page.sheet.marks
+    assert mark.back == pytest.approx(back)
+    low, high = extent(page, "front")
+    middle = np.mean(mark.line, axis=0)
+    assert (middle > low).all() and (middle < high).all()
+
+
+def test_an_oblique_section_is_marked_where_it_is_seen_from_its_edge():
+    page = page_of(views=["front", "top", (1, -1, 0)], section={"1,-1,0": (0, 0, 0)})
+    (mark,) = page.sheet.marks
+    assert mark.back == pytest.approx((np.sqrt(0.5), -np.sqrt(0.5)))
+    way = np.subtract(*mark.line)
+    assert way[0] == pytest.approx(way[1])
+
+
+def test_each_section_has_its_letter_and_all_marks_lie_on_the_page():
+    for method in ("first-angle", "third-angle"):
+        page = page_of(method, section={"front": True, "top": 3.0, "left": True})
+        assert [mark.letter for mark in page.sheet.marks] == ["A", "B", "C"]
+        for mark in page.sheet.marks:
+            shapes = shapes_of(mark)
+            points = [p for each in (*shapes.wide, *shapes.chain, *shapes.arrows) for p in each]
+            points += [place for place, _ in shapes.texts]
+            low, high = np.min(points, axis=0), np.max(points, axis=0)
+            assert (low > 10.0).all() and (high < [page.page.width - 10.0, page.page.height - 10.0]).all()
+
+
+def test_the_name_of_a_section_is_clear_of_other_views():
+    page = page_of(section={"front": True, "top": True})
+    for mark in page.sheet.marks:
+        for view in ("front", "top", "left"):
+            low, high = extent(page, view)
+            x, y = mark.name
+            assert not (low[0] < x < high[0] and low[1] < y < high[1])
+
+
+def test_a_section_that_shows_less_stays_in_line_and_all_views_on_the_page():
+    """What lies before the plane is wider than what is left."""
+    step = cq.Workplane().box(20, 20, 20).union(cq.Workplane().box(190, 6, 10).translate((85, -12, 0)))
+    page = page_of(thing=step, section={"front": 0.0})
+    (scale,) = {view.scale for view in page.sheet.views}
+    front, top = extent(page, "front"), extent(page, "top")
+    # The block goes from -10 to 10, as does the arm that was cut off, to 180.
+    assert front[0, 0] - top[0, 0] == pytest.approx(0.0, abs=1e-6)
+    assert (front[1, 0] - front[0, 0], top[1, 0] - top[0, 0]) == pytest.approx((20 * scale, 190 * scale), abs=1e-3)
+    assert page.sheet.views[1].place[0] == pytest.approx(top[:, 0].mean(), abs=1e-3)
+    points = np.concatenate([line.points for line in page.lines])
+    assert (points > 10.0).all()
+    assert (points < [page.page.width - 10.0, page.page.height - 10.0]).all()
+
+
+def test_a_page_that_sees_no_plane_from_its_edge_says_so():
+    page = page_of(views=["front", "iso"], section={"front": True})
+    (note,) = page.notes
+    assert (note.code, note.is_warning) == ("section-not-marked", False)
+    assert note.text == "no view of the page sees the plane of section A-A from its edge: none marks it."
+    assert page.sheet.marks[0].line is None
+
+
+def test_a_whole_view_is_marked_before_a_section_is():
+    page = page_of(views=["front", "top", "left"], section={"front": True, "top": True})
+    front, left = extent(page, "front"), extent(page, "left")
+    first, second = (np.mean(mark.line, axis=0) for mark in page.sheet.marks)
+    assert (first > left[0]).all() and (first < left[1]).all()
+    assert (second > left[0]).all() and (second < left[1]).all()
+    page = page_of(views=["front", "top"], section={"front": True, "top": True})
+    middle = np.mean(page.sheet.marks[1].line, axis=0)
+    front = extent(page, "front")
+    assert (middle > front[0]).all() and (middle < front[1]).all()
+
+
+def test_pens_are_not_thinner_because_of_hatches():
+    pins = [cq.Workplane().box(4, 4, 30).translate((12 * k, 0, 0)) for k in range(10)]
+    plain, cut = page_of(thing=pins), page_of(thing=pins, section={"front": True})
+    assert sum(line.kind == "hatch" for line in cut.lines) > 200
+    assert plain.group is cut.group is None
+    assert cut.notes == ()
+
+
+def test_pages_without_sections_keep_their_gaps_and_have_no_marks():
+    assert page_of().sheet.marks == ()
+    low, high = (extent(page_of(), view) for view in ("front", "left"))
+    assert high[0, 0] - low[1, 0] < 2.0 * REACH + 20.0
+
+
+@pytest.mark.parametrize("section", [True, 5.0, (0, 0, 0)])
+def test_one_place_for_all_views_is_refused(section):
+    with pytest.raises(OptionError, match=r'a page of several views has sections by name: give \{"front": True\}'):
+        page_of(section=section)
+
+
+def test_a_section_that_is_none_of_the_views_is_refused_but_added_to_the_usual_ones():
+    with pytest.raises(OptionError, match="section left is none of the views, front and top"):
+        page_of(views=["front", "top"], section={"left": True})
+    assert [view.name for view in page_of(section={"right": True}).sheet.views] == [
+        "front", "top", "left", "iso", "right"
+    ]  # fmt: skip
+
+
+def test_svg_and_pdf_print_the_marks_in_the_pens_of_the_style():
+    page = page_of(section={"front": True}, style="dark")
+    svg = page.to_svg()
+    marks = svg.partition('<g class="section"')[2].partition("</g>")[0]
+    assert 'stroke="#e8e8e8" stroke-width="0.5"' in marks.partition(">")[0]
+    assert re.findall(r">([^<>]+)</text>", marks) == ["A", "A", "A-A"]
+    assert marks.count("stroke-dasharray") == 1
+    assert ' section="A-A"/>' in svg
+    assert page.to_pdf() != page_of(style="dark").to_pdf()
+    assert page.to_png() == page_of(section={"front": True}, style="dark").to_png()
+
+
+@pytest.mark.parametrize("version", ["R12", "R2000", "R2018"])
+def test_dxf_has_the_marks_on_a_layer_of_their_own(tmp_path, version):
+    import ezdxf
+
+    page = page_of(section={"front": True}, style={"dxf": version, "visible": {"color": "#123456"}})
+    document = ezdxf.readfile(page.save(tmp_path / "page.dxf"))
+    assert not document.audit().has_errors
+    marks = document.modelspace().query('*[layer=="SECTION_MARKS"]')
+    kinds = sorted(entity.dxftype() for entity in marks)
+    assert kinds == ["LINE"] * 5 + ["SOLID"] * 2 + ["TEXT"] * 3
+    assert sorted(entity.dxf.text for entity in marks if entity.dxftype() == "TEXT") == ["A", "A", "A-A"]
+    assert len({entity.dxf.linetype for entity in marks if entity.dxftype() == "LINE"}) == 2
+    again = page_of(section={"front": True}, style={"dxf": version, "visible": {"color": "#123456"}})
+    assert again.to_dxf() == page.to_dxf()
+
+
+def test_marks_are_no_lines_of_a_comparison(tmp_path):
+    page = page_of(section={"front": True})
+    paths = [page.save(tmp_path / f"page.{ending}") for ending in ("svg", "pdf", "dxf")]
+    for path in paths:
+        assert hlr.compare.compare(page, path).same
+
+
+def test_letters_go_on_after_the_last():
+    assert [letter_of(k) for k in (0, 7, 8, len(LETTERS) - 1, len(LETTERS))] == ["A", "H", "J", "Z", "A2"]
+
+
+def test_a_short_cutting_line_has_ends_that_meet():
+    shapes = shapes_of(SectionMark("A", (0.0, 0.0), ((0.0, 0.0), (4.0, 0.0)), (0.0, 1.0)))
+    assert shapes.wide[:2] == [((0.0, 0.0), (2.0, 0.0)), ((4.0, 0.0), (2.0, 0.0))]
