@@ -28,12 +28,9 @@ from typing import NoReturn
 from hlr.common.leftovers import Leftovers
 from hlr.common.process import CRASHES, claim, tie_to, without_core_files
 from hlr.errors import OptionError, SourceError
-from hlr.tables.readers import of_ending
+from hlr.tables.readers import DOING, of_ending
 
 from .signals import STOPPING, Stopped, hang_up_ignored
-
-_READING = ("", "source", "tessellate")
-"""Stages in which OpenCASCADE or a script runs; all other stages run our code alone."""
 
 _PATIENCE = 2.0
 """Seconds that a crashed worker's progress bar has to clear its line, and that a stopped worker has to tidy up."""
@@ -192,9 +189,8 @@ def _explain(source: Path, stage: str, code: int) -> NoReturn:
     if -code not in CRASHES:
         raise Stopped(-code)
     reason = CRASHES[signal.Signals(-code)]
-    if stage in _READING and reader is not None and reader.crash:
-        doing = "meshed" if stage == "tessellate" else "read"
-        raise SourceError(reader.crash.format(name=source.name, reason=reason, doing=doing))
+    if stage in DOING and reader is not None and reader.crash:
+        raise SourceError(reader.crash.format(name=source.name, reason=reason, doing=DOING[stage]))
     raise CrashError(f"{reason} while drawing {source.name}; nothing was written")
 
 

@@ -17,13 +17,10 @@ from typing import TYPE_CHECKING, Any
 from hlr.batch.frames import receive, send
 from hlr.batch.job import Job, Outcome, failed
 from hlr.common.process import CRASHES
-from hlr.tables.readers import of_ending
+from hlr.tables.readers import DOING, of_ending
 
 if TYPE_CHECKING:
     import psutil
-
-_READING = ("", "source", "tessellate")
-"""Stages in which OpenCASCADE or a script runs; all other stages run our code alone."""
 
 _KILLED = 9
 """The signal that the system kills with where memory is short."""
@@ -200,9 +197,8 @@ def _why(job: Job, stage: str, code: int | None) -> tuple[str, str]:
     if -code == _KILLED:
         return "SourceError", f"{name}: the work was killed, most likely for want of memory."
     reason = CRASHES.get(-code, f"signal {-code}")
-    if stage in _READING and reader is not None and reader.crash:
-        doing = "meshed" if stage == "tessellate" else "read"
-        return "SourceError", f"{reader.crash.format(name=name, reason=reason, doing=doing)}."
+    if stage in DOING and reader is not None and reader.crash:
+        return "SourceError", f"{reader.crash.format(name=name, reason=reason, doing=DOING[stage])}."
     return "Crash", f"{name} crashed hlr ({reason}); this is a fault of hlr, please report it with the model."
 
 

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import numpy.typing as npt
 
 from hlr.common.types import Floats
 from hlr.drawing.hatch_pattern import Row, Tiles
+
+Numbers = npt.NDArray[np.int64]
 
 MOST_STROKES = 100_000
 """Of one section."""
@@ -69,18 +72,19 @@ def _tiled(tiles: Tiles, corners: Floats) -> Floats | None:
     return np.asarray((shifts[:, None, None] + tiles.strokes).reshape(-1, 2, 2))
 
 
-def inside(strokes: Floats, sides: Floats) -> Floats:
-    """What of strokes (n, 2, 2) lies inside a face, by the even-odd rule: (k, 2, 2).
+def inside(strokes: Floats, sides: Floats, *, winding: bool = False) -> Floats:
+    """What of strokes (n, 2, 2) lies inside a face: (k, 2, 2).
 
-    sides (m, 2, 2): of all its loops
+    sides (m, 2, 2): of all its loops. winding: they run anticlockwise, holes clockwise, and where two loops overlap is
+    inside as well; else the even-odd rule tells it
     """
     rows = max(1, CROSSINGS // max(len(sides), 1))
     parts = [np.zeros((0, 2, 2))]
-    parts += [_inside(strokes[k : k + rows], sides) for k in range(0, len(strokes), rows)]
+    parts += [_inside(strokes[k : k + rows], sides, winding) for k in range(0, len(strokes), rows)]
     return np.concatenate(parts)
 
 
-def _inside(strokes: Floats, sides: Floats) -> Floats:
+def _inside(strokes: Floats, sides: Floats, winding: bool) -> Floats:
     start, along = strokes[:, 0], strokes[:, 1] - strokes[:, 0]
     across = np.stack([-along[:, 1], along[:, 0]], axis=1)
     # How far the ends of each side lie to the left of each stroke. An end on it counts as left, once and for all.
@@ -90,10 +94,29 @@ def _inside(strokes: Floats, sides: Floats) -> Floats:
     places = sides[None, :, 0] + share[..., None] * (sides[:, 1] - sides[:, 0])[None]
     length = np.maximum(np.einsum("nk,nk->n", along, along), 1e-300)
     t = np.einsum("nmk,nk->nm", places - start[:, None], along) / length[:, None]
-    t = np.sort(np.where(crossed, t, np.inf), axis=1)
-    # Along its straight line the face is entered at the first crossing, left at the second, and so on.
-    t = t[:, : t.shape[1] // 2 * 2].reshape(len(t), -1, 2)
-    t = np.clip(np.where(np.isfinite(t), t, 2.0), 0.0, 1.0)
-    which, pair = np.nonzero(t[..., 1] > t[..., 0])
-    spans = t[which, pair]
+    t = np.where(crossed, t, np.inf)
+    if winding:
+        which, spans = _wound(t, np.where(crossed, np.where(left[..., 0] >= 0.0, 1, -1), 0))
+    else:
+        t = np.sort(t, axis=1)
+        # Along its straight line the face is entered at the first crossing, left at the second, and so on.
+        pairs = t[:, : t.shape[1] // 2 * 2].reshape(len(t), -1, 2)
+        which, pair = np.nonzero(np.isfinite(pairs[..., 0]))
+        spans = pairs[which, pair]
+    spans = np.clip(np.where(np.isfinite(spans), spans, 2.0), 0.0, 1.0)
+    some = spans[:, 1] > spans[:, 0]
+    which, spans = which[some], spans[some]
     return np.asarray(start[which, None] + spans[..., None] * along[which, None])
+
+
+def _wound(t: Floats, sense: Numbers) -> tuple[Numbers, Floats]:
+    """Spans (k, 2) of lines in which loops run around them, and the number (k,) of the line of each.
+
+    t (n, m): where line n crosses side m; sense (n, m): 1 where it enters a loop there, -1 where it leaves one
+    """
+    order = np.argsort(t, axis=1, kind="stable")
+    t, sense = np.take_along_axis(t, order, axis=1), np.take_along_axis(sense, order, axis=1)
+    after = np.cumsum(sense, axis=1)
+    before = after - sense
+    enters, leaves = (before == 0) & (after != 0), (before != 0) & (after == 0)
+    return np.nonzero(enters)[0], np.stack([t[enters], t[leaves]], axis=1)

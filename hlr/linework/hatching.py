@@ -95,7 +95,7 @@ def hatched(loops: Sequence[Floats], pattern: Pattern, shortest: float) -> Float
     strokes = strokes_within((pattern.row(),), low, high)
     if strokes is None:
         return np.zeros((0, 2, 2))
-    lines = inside(strokes, sides)
+    lines = inside(strokes, sides, winding=True)
     return np.asarray(lines[np.hypot(*(lines[:, 1] - lines[:, 0]).T) >= shortest])
 
 

@@ -20,6 +20,9 @@ BROKEN_FILE = (
 )
 BROKEN_SCRIPT = "{name} crashed ({reason}) in compiled code that it uses; nothing was written"
 
+DOING = {"": "read", "source": "read", "tessellate": "meshed", "section": "cut"}
+"""Stages in which OpenCASCADE or a script runs, and what is done to the model there; all others run our code alone."""
+
 
 @dataclass(frozen=True, slots=True)
 class Reader:

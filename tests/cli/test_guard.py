@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 
@@ -70,6 +71,19 @@ def test_a_reader_that_crashes(patched, tmp_path, verb, body, reason):
     )
     assert (tmp_path / "a.svg").read_bytes() == OLD
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.svg", "part.step"]
+
+
+def test_a_section_that_crashes(tmp_path):
+    program = (
+        "import ctypes, hlr.source.cad.half_space as cutter; cutter.cut_away = lambda *_: ctypes.string_at(0); "
+        "from hlr.cli import main; main()"
+    )
+    model = Path(__file__).parents[1] / "data" / "freecad" / "box.step"
+    command = [sys.executable, "-P", "-c", program, "draw", model, "--section", "front", "-o", "a.svg"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.startswith("hlr: box.step crashed OpenCASCADE (segmentation fault) while it was cut; nothing")
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.slow

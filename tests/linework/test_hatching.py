@@ -43,6 +43,15 @@ def test_no_line_is_in_a_hole():
     assert on_hole.sum() == pytest.approx(2 * 20 * np.sqrt(2.0), abs=2)
 
 
+def test_lines_go_through_where_two_faces_overlap():
+    """As those of a mesh that passes through itself."""
+    one, other = rectangle(0, 0, 30, 30), rectangle(20, 10, 30, 30)
+    lines = hatched([one, other], Pattern(45.0, 1.0), 0.01)
+    assert lengths(lines).sum() == pytest.approx(2 * 900 - 10 * 20, rel=0.01)
+    alone = [hatched([loop], Pattern(45.0, 1.0), 0.01) for loop in (one, other)]
+    assert len(lines) < sum(map(len, alone))
+
+
 def test_lines_shorter_than_asked_for_are_left_out():
     face = [rectangle(0, 0, 10, 10)]
     every, some = (hatched(face, Pattern(45.0, 1.0), least) for least in (0.0, 3.0))

@@ -44,6 +44,8 @@ def draw_sections(
     views, options: checked. Raises as that, and OptionError where a plane cuts nothing or leaves nothing.
     """
     opened = open_selected(source, options)
+    if progress is not None:
+        progress("section", 0.0)
     cuts = [_cut_for(view, opened, options) for view in views]
     plain = [k for k, cut in enumerate(cuts) if cut is None]
     sessions: list[tuple[list[int], Session]] = []
