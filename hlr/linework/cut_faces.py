@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from hlr.common.types import Floats, Ints
+from hlr.linework.level_faces import cut_ones
 from hlr.source.model import PartMesh
 
 NEAR = 1e-7
@@ -22,12 +23,14 @@ class CutFace:
     number  of the face in the part's TopExp face map; 0 where a mesh knows no faces
     points  (n, 3) of the model
     loops   into points, counter-clockwise seen from the side of the viewer, holes clockwise
+    rims    into points: the parts of its border at which a face goes on that lay in the plane before
     """
 
     part: str
     number: int
     points: Floats
     loops: list[Ints]
+    rims: list[Ints]
 
     @property
     def borders(self) -> list[Floats]:
@@ -35,25 +38,40 @@ class CutFace:
         return [self.points[loop] for loop in self.loops]
 
 
-def nearness(bounds: Floats) -> float:
-    """How close to the plane a face lies on it, model units; bounds (2, 3): of the model."""
+def nearness(bounds: Floats, brep: bool = True) -> float:
+    """How close to the plane a face lies on it, model units.
+
+    bounds (2, 3): of the model; brep: OpenCASCADE cuts it, which takes what is closer than 1e-7 mm for the same
+    """
     low, high = bounds
-    return NEAR * float(np.linalg.norm(high - low)) + NEAR
+    return NEAR * float(np.linalg.norm(high - low)) + (NEAR if brep else 0.0)
 
 
-def cut_faces(parts: Iterable[PartMesh], origin: Floats, normal: Floats, near: float) -> Iterator[CutFace]:
+def cut_faces(
+    parts: Iterable[PartMesh],
+    origin: Floats,
+    normal: Floats,
+    near: float,
+    whole: Callable[[str], PartMesh | None] = lambda _: None,
+) -> Iterator[CutFace]:
     """The faces on a plane that look to where its normal points.
 
-    origin, normal (3,): of the plane, the normal of length 1; near: model units
+    origin, normal (3,): of the plane, the normal of length 1; near: model units; whole: of the name of a part, that
+    part before it was cut, where it had faces on the plane then, which are no cut faces
     """
     for part in parts:
         on = np.abs((part.points - origin) @ normal) <= near
-        flat = on[part.triangles].all(axis=1)
+        flat = np.asarray(on[part.triangles].all(axis=1), np.bool_)
+        level, before = part.triangles[:0], whole(part.name) if flat.any() else None
+        if before is not None:
+            numbers = np.flatnonzero(flat)
+            cut = cut_ones(part, part.triangles[numbers], part.triangle_face[numbers], before, normal, near)
+            level, flat = part.triangles[numbers[~cut]], np.isin(np.arange(len(flat)), numbers[cut])
         for face in np.flatnonzero(np.bincount(part.triangle_face[flat], minlength=len(part.face_planar))).tolist():
             own = part.triangles[flat & (part.triangle_face == face)]
             a, b, c = part.points[own].transpose(1, 0, 2)
             if np.cross(b - a, c - a).sum(axis=0) @ normal > 0.0:
-                yield CutFace(part.name, face, part.points, _loops(own))
+                yield CutFace(part.name, face, part.points, _loops(own), _rims(own, level))
 
 
 def _loops(triangles: Ints) -> list[Ints]:
@@ -78,3 +96,29 @@ def _loops(triangles: Ints) -> list[Ints]:
                 break
         loops.append(np.array(loop))
     return loops
+
+
+def _rims(triangles: Ints, others: Ints) -> list[Ints]:
+    """Where triangles (m, 3) border on others, as lines as long as can be; closed ones end where they begin."""
+    beyond = {(b, a) for t in others.tolist() for a, b in zip(t, (*t[1:], t[0]), strict=True)}
+    sides = sorted(
+        (a, b) for t in triangles.tolist() for a, b in zip(t, (*t[1:], t[0]), strict=True) if (a, b) in beyond
+    )
+    onward: dict[int, list[int]] = {}
+    for a, b in sides:
+        onward.setdefault(a, []).append(b)
+    entered = {b for _, b in sides}
+    begins = [a for a in onward if a not in entered]
+    rims = []
+    while onward:
+        at = begins.pop(0) if begins else next(iter(onward))
+        rim = [at]
+        while at in onward:
+            following = onward[at]
+            then = following.pop()
+            if not following:
+                del onward[at]
+            rim.append(then)
+            at = then
+        rims.append(np.array(rim))
+    return rims

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 import numpy.typing as npt
@@ -78,13 +79,41 @@ def inside(strokes: Floats, sides: Floats, *, winding: bool = False) -> Floats:
     sides (m, 2, 2): of all its loops. winding: they run anticlockwise, holes clockwise, and where two loops overlap is
     inside as well; else the even-odd rule tells it
     """
-    rows = max(1, CROSSINGS // max(len(sides), 1))
     parts = [np.zeros((0, 2, 2))]
-    parts += [_inside(strokes[k : k + rows], sides, winding) for k in range(0, len(strokes), rows)]
+    parts += [_pieces(some, *_spans(some, sides, winding)) for some in _few(strokes, sides)]
     return np.concatenate(parts)
 
 
-def _inside(strokes: Floats, sides: Floats, winding: bool) -> Floats:
+def uncovered(strokes: Floats, sides: Floats) -> Floats:
+    """What of strokes (n, 2, 2) lies outside all faces: (k, 2, 2). sides (m, 2, 2): of their loops, anticlockwise."""
+    parts = [np.zeros((0, 2, 2))]
+    for some in _few(strokes, sides):
+        which, spans = _spans(some, sides, True)
+        every = np.arange(len(some))
+        begins = np.concatenate([np.zeros(len(some)), spans[:, 1]])
+        ends = np.concatenate([spans[:, 0], np.ones(len(some))])
+        of_begins, of_ends = np.concatenate([every, which]), np.concatenate([which, every])
+        one, other = np.lexsort((begins, of_begins)), np.lexsort((ends, of_ends))
+        gaps = np.stack([begins[one], ends[other]], axis=1)
+        left = gaps[:, 1] > gaps[:, 0]
+        parts.append(_pieces(some, of_begins[one][left], gaps[left]))
+    return np.concatenate(parts)
+
+
+def _few(strokes: Floats, sides: Floats) -> Iterator[Floats]:
+    """Some strokes at a time."""
+    rows = max(1, CROSSINGS // max(len(sides), 1))
+    return (strokes[k : k + rows] for k in range(0, len(strokes), rows))
+
+
+def _pieces(strokes: Floats, which: Numbers, spans: Floats) -> Floats:
+    """Pieces (k, 2, 2) of strokes, by the number (k,) of the stroke, and shares (k, 2) of its way."""
+    start, along = strokes[:, 0], strokes[:, 1] - strokes[:, 0]
+    return np.asarray(start[which, None] + spans[..., None] * along[which, None])
+
+
+def _spans(strokes: Floats, sides: Floats, winding: bool) -> tuple[Numbers, Floats]:
+    """The number (k,) of the stroke of each piece inside, and from where to where on it the piece reaches: (k, 2)."""
     start, along = strokes[:, 0], strokes[:, 1] - strokes[:, 0]
     across = np.stack([-along[:, 1], along[:, 0]], axis=1)
     # How far the ends of each side lie to the left of each stroke. An end on it counts as left, once and for all.
@@ -105,8 +134,7 @@ def _inside(strokes: Floats, sides: Floats, winding: bool) -> Floats:
         spans = pairs[which, pair]
     spans = np.clip(np.where(np.isfinite(spans), spans, 2.0), 0.0, 1.0)
     some = spans[:, 1] > spans[:, 0]
-    which, spans = which[some], spans[some]
-    return np.asarray(start[which, None] + spans[..., None] * along[which, None])
+    return which[some], spans[some]
 
 
 def _wound(t: Floats, sense: Numbers) -> tuple[Numbers, Floats]:

@@ -5,7 +5,7 @@ import pytest
 
 from hlr.drawing.hatch_pattern import Row
 from hlr.linework import hatch_strokes
-from hlr.linework.hatch_strokes import inside, strokes_within
+from hlr.linework.hatch_strokes import inside, strokes_within, uncovered
 
 SQUARE = np.array([(0, 0), (10, 0), (10, 10), (0, 10)], float)
 HOLE = np.array([(3, 3), (3, 7), (7, 7), (7, 3)], float)
@@ -64,3 +64,21 @@ def test_too_many_are_none():
     assert strokes_within((row,), np.zeros(2), np.array([1.0, 100.0])) is None
     dots = Row(np.zeros(2), np.array([1.0, 0.0]), np.array([0.0, 1.0]), (1e-4, -1e-4))
     assert strokes_within((dots,), np.zeros(2), np.array([100.0, 100.0])) is None
+
+
+def test_what_is_uncovered_is_all_that_is_not_inside(monkeypatch):
+    rng = np.random.default_rng(7)
+    strokes = rng.uniform(-4.0, 14.0, (40, 2, 2))
+    # Two squares that overlap, the second of them with a hole.
+    own = np.concatenate([sides(SQUARE, HOLE), sides(SQUARE) + [6.0, 5.0]])
+    whole, covered, left = (
+        np.hypot(*(some[:, 1] - some[:, 0]).T).sum()
+        for some in (strokes, inside(strokes, own, winding=True), uncovered(strokes, own))
+    )
+    assert covered + left == pytest.approx(whole)
+    again = np.concatenate([inside(uncovered(strokes, own), own, winding=True)])
+    assert np.hypot(*(again[:, 1] - again[:, 0]).T).sum() == pytest.approx(0.0, abs=1e-9)
+    assert len(uncovered(strokes, np.zeros((0, 2, 2)))) == len(strokes)
+    expected = uncovered(strokes, own)
+    monkeypatch.setattr(hatch_strokes, "CROSSINGS", 20)
+    assert uncovered(strokes, own) == pytest.approx(expected)

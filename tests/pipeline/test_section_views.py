@@ -17,6 +17,11 @@ def plate():
     return cq.Workplane().box(WIDTH, DEPTH, HEIGHT).faces(">Z").workplane().hole(2 * RADIUS)
 
 
+def mesh_of(thing):
+    points, triangles = thing.val().tessellate(0.01, 0.05)
+    return np.array([p.toTuple() for p in points]), np.array(triangles)
+
+
 def section(thing, view="front", where=True, **options):
     return hlr.draw(thing, view, section=where, **{"scale": 1, **options})
 
@@ -116,6 +121,68 @@ def test_a_section_has_hidden_lines_where_they_are_asked_for_alone():
     blind = cq.Workplane().box(60, 30, 40).faces("<Y").workplane().hole(10, 5).faces(">Y").workplane().hole(10, 5)
     assert not section(blind).hidden
     assert section(blind, hidden=True).hidden
+
+
+def pocket():
+    """A block with a pocket in front whose floor lies in the middle."""
+    return cq.Workplane().box(60, 40, 40).cut(cq.Workplane().box(20, 20, 24).translate((0, -10, 0)))
+
+
+@pytest.mark.parametrize("make", [lambda body: body, mesh_of], ids=["solid", "mesh"])
+def test_the_floor_of_a_pocket_that_lies_in_the_plane_is_seen_and_not_hatched(make):
+    drawing = section(make(pocket()))
+    assert hatched_area(drawing, 3.0) == pytest.approx(60 * 40 - 20 * 24, rel=0.03)
+    x, y = hatch_of(drawing).mean(axis=1).T
+    assert not ((x > 20) & (x < 40) & (y > 8) & (y < 32)).any()
+    (rim,) = (line for line in drawing.lines if line.kind == "sharp" and len(line.points) > 2)
+    assert rim.visible
+    assert rim.points[0] == pytest.approx(rim.points[-1])
+    assert np.abs(np.diff(rim.points, axis=0)).sum() == pytest.approx(2 * (20 + 24))
+    assert (rim.points.min(axis=0), rim.points.max(axis=0)) == (pytest.approx([20, 8]), pytest.approx([40, 32]))
+    # Turned about, there is material before the floor, and all is cut.
+    behind = section(make(pocket().rotate((0, 0, 0), (0, 0, 1), 180)), "front", -1e-3)
+    assert hatched_area(behind, 3.0) == pytest.approx(60 * 40, rel=0.03)
+
+
+def test_the_floor_of_a_round_pocket_in_a_round_body_is_not_hatched():
+    body = cq.Workplane("XZ").circle(20).extrude(-30).faces("<Y").workplane().hole(16, 15)
+    assert hatched_area(section(body), 3.0) == pytest.approx(np.pi * (20**2 - 8**2), rel=0.04)
+
+
+def test_level_faces_are_found_a_few_points_at_a_time(monkeypatch):
+    from hlr.linework import level_faces
+
+    whole = section(mesh_of(pocket()))
+    monkeypatch.setattr(level_faces, "PAIRS", 7)
+    assert section(mesh_of(pocket())) == whole
+
+
+def test_a_rim_that_reaches_the_border_is_open():
+    slot = cq.Workplane().box(60, 40, 40).cut(cq.Workplane().box(20, 20, 60).translate((0, -10, 0)))
+    rims = [line.points for line in section(slot).lines if line.kind == "sharp" and line.edge is None]
+    assert sorted(tuple(sorted(map(tuple, np.round(each, 6).tolist()))) for each in rims) == [
+        ((20.0, 0.0), (20.0, 40.0)), ((40.0, 0.0), (40.0, 40.0))
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("meshed", [False, True])
+def test_a_whole_part_hides_the_hatches_behind_it(meshed, tmp_path):
+    """The plane lies behind the axis: the shaft is wider before it."""
+    shaft = cq.Workplane("XY").circle(5).extrude(60).translate((0, 0, -30))
+    bush = cq.Workplane("XY").circle(12).circle(5).extrude(30).translate((0, 0, -15))
+    thing = cq.Assembly().add(shaft, name="shaft").add(bush, name="bush")
+    if meshed:
+        import trimesh
+
+        scene = trimesh.Scene()
+        for name, body in (("shaft", shaft), ("bush", bush)):
+            scene.add_geometry(trimesh.Trimesh(*mesh_of(body)), geom_name=name, node_name=name)
+        thing = scene
+    drawing = section(thing, where=3, uncut=("shaft",))
+    x = hatch_of(drawing)[..., 0] + drawing.origin[0]
+    assert np.abs(x).min() == pytest.approx(5.0, abs=0.05)
+    assert np.abs(x).max() == pytest.approx(np.sqrt(12**2 - 3**2), abs=0.05)
+    assert [drawing.parts[k].name for k in drawing.section.parts] == ["bush"]
 
 
 def test_parts_that_touch_have_other_hatches():
@@ -228,11 +295,6 @@ def test_a_solid_that_is_turned_inside_out_is_cut_like_any_other():
     assert hatched_area(section(inside_out), 3.0) == pytest.approx(2 * 20 * HEIGHT, rel=0.03)
 
 
-def mesh_of(thing):
-    points, triangles = thing.val().tessellate(0.01, 0.05)
-    return np.array([p.toTuple() for p in points]), np.array(triangles)
-
-
 def test_closed_meshes_are_cut_and_hatched():
     drawing = section(mesh_of(plate()))
     assert hatched_area(drawing, 3.0) == pytest.approx(2 * 20 * HEIGHT, rel=0.03)
@@ -317,6 +379,15 @@ def test_a_model_of_any_size_has_hatches_that_can_be_read():
         counts.append(len(hatch_of(drawing)))
     assert counts[0] == counts[1] or abs(counts[0] - counts[1]) < 40
     assert all(10 < count < 200 for count in counts)
+
+
+@pytest.mark.parametrize("size", [1e-12, 1e-9, 1.0, 1e9])
+def test_a_mesh_of_any_size_is_cut(size):
+    points, triangles = mesh_of(pocket())
+    drawing = hlr.draw((points * size, triangles), "front", section=True)
+    alone = hlr.draw((points, triangles), "front", section=True)
+    assert len(hatch_of(drawing)) == pytest.approx(len(hatch_of(alone)), rel=0.6)
+    assert any(len(line.points) > 2 for line in drawing.lines)
 
 
 def test_the_same_section_is_the_same_file():

@@ -10,7 +10,8 @@ from hlr.common.types import Floats
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line
 from hlr.drawing.section import Section
-from hlr.linework.cut_faces import CutFace, cut_faces
+from hlr.linework.cut_faces import cut_faces
+from hlr.linework.hatch_strokes import uncovered
 from hlr.linework.hatching import hatched, patterns_of
 from hlr.pipeline.section.plane import Plane
 from hlr.pipeline.section.sources import CutSource
@@ -24,7 +25,13 @@ def with_hatches(drawing: Drawing, session: Session, plane: Plane, cut: CutSourc
     """A drawing of what a plane leaves, with its cut faces hatched. session: that has drawn it."""
     faces = [
         face
-        for face in cut_faces(session.parts, np.array(plane.point), np.array(plane.normal), plane.near)
+        for face in cut_faces(
+            session.parts,
+            np.array(plane.point),
+            np.array(plane.normal),
+            plane.near,
+            lambda name: plane.level.get(cut.whose[name]),
+        )
         if cut.whose[face.part] in cut.cut
     ]
     paper = _Paper(drawing)
@@ -35,21 +42,47 @@ def with_hatches(drawing: Drawing, session: Session, plane: Plane, cut: CutSourc
     patterns = patterns_of(whole, _shorter_side(drawing))
     number = {part.name: k for k, part in enumerate(drawing.parts)}
     level = float(np.array(plane.point) @ np.array(plane.normal))
-    lines: list[Line] = []
+    cover = _cover(session, plane, cut, paper)
+    hatches: list[Line] = []
+    rims: list[Line] = []
     for face, loops in zip(faces, flat, strict=True):
+        part = number[face.part]
         strokes = hatched(loops, patterns[cut.whose[face.part]], drawing.accuracy.used)
-        lines += _lines(strokes, face, number[face.part], paper, level)
+        strokes = strokes if cover is None else uncovered(strokes, cover)
+        hatches += [Line("hatch", True, part, None, face.number, each, paper.behind(each, level)) for each in strokes]
+        for rim in face.rims:
+            rims += _rim(face.points[rim], part, paper, cover, level)
     if drawing.window is not None:
         frame = Frame(drawing.view, drawing.scale * drawing.unit, drawing.window)
-        lines = list(cut_lines(lines, frame)[0])
+        hatches, rims = list(cut_lines(hatches, frame)[0]), list(cut_lines(rims, frame)[0])
     section = Section(plane.point, plane.normal, tuple(sorted({number[face.part] for face in faces})))
     counters = {
         **drawing.counters,
-        "lines": drawing.counters.get("lines", 0) + len(lines),
-        "hatch_lines": len(lines),
+        "lines": drawing.counters.get("lines", 0) + len(rims) + len(hatches),
+        "hatch_lines": len(hatches),
     }
-    every = (*drawing.lines, *lines) if lines else drawing.lines
+    every = (*drawing.lines, *rims, *hatches) if rims or hatches else drawing.lines
     return replace(drawing, lines=every, section=section, counters=counters)
+
+
+def _cover(session: Session, plane: Plane, cut: CutSource, paper: _Paper) -> Floats | None:
+    """(k, 2, 2) the borders, on paper, of what lies before the plane; None: nothing does."""
+    before = {name for name, own in cut.whose.items() if own in cut.through}
+    if not before:
+        return None
+    from hlr.pipeline.section.cover import cover_of
+
+    sides = cover_of(session.parts, before, plane)
+    return paper.on(sides.reshape(-1, 3)).reshape(-1, 2, 2)
+
+
+def _rim(points: Floats, part: int, paper: _Paper, cover: Floats | None, level: float) -> list[Line]:
+    """The border (n, 3) of a cut face at a face that lay in the plane before, as far as it is seen."""
+    flat = paper.on(points)
+    if cover is None:
+        return [Line("sharp", True, part, None, None, flat, points)]
+    pieces = uncovered(np.stack([flat[:-1], flat[1:]], axis=1), cover)
+    return [Line("sharp", True, part, None, None, piece, paper.behind(piece, level)) for piece in pieces]
 
 
 def _shorter_side(drawing: Drawing) -> float:
@@ -75,7 +108,3 @@ class _Paper:
     def behind(self, flat: Floats, level: float) -> Floats:
         """Points (n, 2) on paper as (n, 3) of the model, at a height toward the viewer."""
         return np.asarray((flat + self._origin) / self._per_model @ self._axes + level * self._toward)
-
-
-def _lines(strokes: Floats, face: CutFace, part: int, paper: _Paper, level: float) -> list[Line]:
-    return [Line("hatch", True, part, None, face.number, stroke, paper.behind(stroke, level)) for stroke in strokes]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,13 +10,15 @@ import numpy as np
 
 from hlr.common.types import Floats
 from hlr.errors import OptionError
-from hlr.image.camera import resolve
+from hlr.image.camera import Camera, resolve
 from hlr.linework.cut_faces import nearness
+from hlr.linework.level_faces import with_level_faces
 from hlr.request.accuracy import ANGLE, SMALL_DRAWING
 from hlr.request.directions import directed
 from hlr.request.options import Options, SectionPlace, Vector, View
 from hlr.request.section import axis_of
-from hlr.source.model import Source
+from hlr.source.model import PartMesh, Source
+from hlr.tables.readers import is_brep
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,12 +28,14 @@ class Plane:
     point     on the plane; normal: of length 1, toward the viewer
     near      what lies so close to the plane lies on it, model units
     touching  the plane only touches the model from the front: nothing is taken away
+    level     parts of the whole model that have faces on the plane which look to the viewer, by name
     """
 
     point: Vector
     normal: Vector
     near: float
     touching: bool
+    level: Mapping[str, PartMesh]
 
     def heights(self, points: Floats) -> Floats:
         """(n,) how far points (n, 3) lie before the plane, model units."""
@@ -45,10 +50,12 @@ def plane_of(place: SectionPlace, view: View, source: Source, options: Options) 
     bounds, unit = source.bounds(), source.frame.unit
     camera = resolve(view, options, source.frame, bounds)
     normal, up = np.array(camera.direction), np.array(source.frame.up)
-    low, high = _extent(source, bounds, camera.direction, camera.right)
+    size = float(np.linalg.norm(bounds[1] - bounds[0]))
+    meshed = source.mesh(size / SMALL_DRAWING, ANGLE).parts
+    low, high = _extent(source, meshed, size / SMALL_DRAWING, camera)
     given = None if place is True else np.array(_point(place, view)) / unit @ up
     at = 0.5 * (low + high) if given is None else float(given @ normal)
-    near = nearness(bounds)
+    near = nearness(bounds, is_brep(source.kind))
     name = directed(view)[0]
     if not low - near <= at <= high + near or at <= low + near:
         what = "misses the model" if at > high or at < low - near else "leaves nothing of the model"
@@ -56,23 +63,22 @@ def plane_of(place: SectionPlace, view: View, source: Source, options: Options) 
     middle = 0.5 * (bounds[0] + bounds[1])
     on = given if isinstance(place, tuple) else middle + (at - float(middle @ normal)) * normal
     x, y, z = (np.asarray(on) + 0.0).tolist()
-    return Plane((x, y, z), camera.direction, near, bool(at >= high - near))
+    level = with_level_faces(meshed, np.array([x, y, z]), normal, near)
+    return Plane((x, y, z), camera.direction, near, bool(at >= high - near), level)
 
 
-def _extent(source: Source, bounds: Floats, direction: Vector, right: Vector) -> tuple[float, float]:
-    """From where to where the model extends along a direction, model units.
+def _extent(source: Source, meshed: Sequence[PartMesh], chord: float, camera: Camera) -> tuple[float, float]:
+    """From where to where the model extends toward the viewer, model units.
 
-    A mesh tells it within its chord error; the geometry exactly, unless splines count by their control points.
+    meshed: its parts, with this chord error. The mesh tells it within that; the geometry exactly, unless splines count
+    by their control points.
     """
-    size = float(np.linalg.norm(bounds[1] - bounds[0]))
-    chord = size / SMALL_DRAWING
-    points = np.concatenate([part.points for part in source.mesh(chord, ANGLE).parts])
-    heights = points @ np.array(direction)
+    heights = np.concatenate([part.points for part in meshed]) @ np.array(camera.direction)
     rough = np.array([heights.min(), heights.max()])
     ask: Any = getattr(source, "reach", None)
     if ask is None:
         return float(rough[0]), float(rough[1])
-    exact = np.array(ask(direction, right)[0])
+    exact = np.array(ask(camera.direction, camera.right)[0])
     low, high = np.where(np.abs(exact - rough) <= 2.0 * chord, exact, rough).tolist()
     return low, high
 

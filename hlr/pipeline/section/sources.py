@@ -19,13 +19,15 @@ from hlr.source.model import Source
 class CutSource:
     """A source that a plane has cut.
 
-    whose  the part of the whole model that each of its parts is, or is a piece of, by name
-    cut    names of those parts of the whole model that the plane goes through
+    whose    the part of the whole model that each of its parts is, or is a piece of, by name
+    cut      names of those parts of the whole model that the plane cuts
+    through  names of those that it goes through, and which stay whole
     """
 
     source: Source
     whose: dict[str, str]
     cut: frozenset[str]
+    through: frozenset[str] = frozenset()
 
 
 def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> CutSource:
@@ -43,6 +45,7 @@ def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> Cut
         raise SourceError(f"{source.name} cannot be cut for a section: draw a CAD model, or a mesh.")
     whole: list[str] = []
     crossed: list[str] = []
+    through: set[str] = set()
     for name, box in zip(source.names(), source.boxes(), strict=True):
         corners = _corners(box)
         heights = plane.heights(corners) if len(corners) else np.zeros(1)
@@ -50,12 +53,13 @@ def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> Cut
             whole.append(name)
         elif heights.min() < -plane.near:
             (whole if name in uncut else crossed).append(name)
+            through |= {name} & set(uncut)
     found = _cut_brep(source, plane, whole, crossed) if isinstance(source, BrepSource) else None
     if isinstance(source, MeshSource):
         found = _cut_meshes(source, plane, whole, crossed)
     if found is None:
         raise OptionError(f"the section leaves nothing of {source.name}: move its plane, or leave it out")
-    return found
+    return replace(found, through=frozenset(through))
 
 
 def _corners(box: Floats) -> Floats:
