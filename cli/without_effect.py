@@ -6,7 +6,7 @@ the request itself.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -131,12 +131,21 @@ def _for_hidden_lines(asked: Asked) -> str:
         if names_a_page(values["source"], values["page"]):
             return ""
         method = PROJECTION_METHODS.get(values["arrange"] or "")
+        if values["section"] and _all_cut(values["views"], values["section"], method is not None):
+            return "has no effect: sections have no hidden lines, unless --hidden asks for them"
         views: tuple[View, ...] = values["views"] or (cast("tuple[View, ...]", method.usual) if method else ("iso",))
         in_perspective = values["perspective"] or any(values[name] is not None for name in ("eye", "target", "fov"))
         if not in_perspective and not all(pictorial(directed(view)[1]) for view in views):
             return ""
         return "has no effect: pictorial views have no hidden lines, unless --hidden asks for them"
     return "has no effect: --no-hidden leaves the hidden lines out"
+
+
+def _all_cut(views: Sequence[View], sections: Mapping[str, Any], on_one_page: bool) -> bool:
+    """Whether all views are sections. views: that were asked for"""
+    from hlr.request.directions import directed
+
+    return not on_one_page and all(directed(view)[0] in sections for view in views)
 
 
 def _without(option: str, why: str) -> Callable[[Asked], str]:

@@ -63,8 +63,8 @@ LINES: tuple[Callable[[Command], Command], ...] = (
     click.option(
         "--hidden/--no-hidden",
         default=None,
-        help="Hidden lines, dashed. Default: in views along an axis, such as front; not in pictorial ones, such as iso "
-        "or in perspective.",
+        help="Hidden lines, dashed. Default: in views along an axis, such as front; not in sections, nor in pictorial "
+        "views, such as iso or in perspective.",
     ),
     *_asked_for(),
     click.option("--see-through", is_flag=True, help="Parts that are transparent in the file hide nothing."),
@@ -147,7 +147,7 @@ def draw(
     told = {"as_json": as_json, "quiet": quiet, "time_limit": time_limit}
     if arrange is not None:
         if views:
-            views = _with_sections(views, sections)
+            views = _with_sections(views, sections, chosen["eye"])
         _check_arranged(all_pages or names_a_page(source, chosen["page"]), explain)
         request = request_of(style=style_from(chosen), **chosen)
         draw_arranged_page(source, outputs, arrange, views, format, request, printed, told)
@@ -159,7 +159,7 @@ def draw(
         draw_document_pages(source, outputs, page, format, asked, told)
         return
     started = time.perf_counter() - time.process_time()  # the time of loading counts as well
-    views = _with_sections(views, sections)
+    views = _with_sections(views, sections, chosen["eye"])
     names = names_of(views, chosen["eye"])
     views = views or ("iso",)
     style = style_from(chosen)
@@ -196,10 +196,12 @@ def draw(
         tell_written(written(drawing, row), quiet)
 
 
-def _with_sections(views: tuple[View, ...], sections: dict[str, Any]) -> tuple[View, ...]:
-    """The views that were asked for, and those that are cut."""
+def _with_sections(views: tuple[View, ...], sections: dict[str, Any], eye: Vector3 | None) -> tuple[View, ...]:
+    """The views that were asked for, and those that are cut. Raises OptionError where one is seen from an eye."""
     if not sections:
         return views
+    if eye is not None:
+        raise OptionError("a section is seen in parallel projection: leave out --eye, or --section")
     from hlr.request.section import with_sections
 
     return with_sections(views, sections)

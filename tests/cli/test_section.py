@@ -64,6 +64,7 @@ def test_parts_stay_whole(draw, tmp_path):
         (["--section", "front@900"], "section front at y = 900 misses the model: as1-oc-214.stp reaches from 0 to 150"),
         (["--section", "iso@9"], "section iso at 9: the view looks along no axis, so give a point on its plane"),
         (["--section", "front", "--perspective"], "a section has no perspective: leave out perspective, or section"),
+        (["--section", "front", "--eye", "1,2,3"], "a section is seen in parallel projection: leave out --eye, or"),
         (["--section", "front", "--report"], "a section has no report: leave out report, or section"),
         (["--section", "front", "--uncut", "blot"], 'uncut "blot" matches no part: perhaps "bolt"'),
         (["--uncut", "bolt"], "--uncut is for --section: leave it out, or say what is cut"),
@@ -98,6 +99,15 @@ def test_pages_of_documents_have_their_own_sections(draw):
     assert done.code == 2
     assert "a page of a document is drawn as it is: leave out the option section" in done.err
     assert draw(HOUSING, "--section", "front", "-o", "a.svg").code == 0
+
+
+@pytest.mark.parametrize(
+    ("views", "noted"), [([], True), (["--view", "front"], True), (["--view", "top"], False), (["--hidden"], False)]
+)
+def test_the_colour_of_hidden_lines_has_no_effect_where_all_views_are_cut(hlr_real, views, noted):
+    done = hlr_real("draw", BOX, "--section", "front", *views, "--hidden-color", "gray", "-o", "{view}.svg")
+    note = "hlr: note: --hidden-color has no effect: sections have no hidden lines, unless --hidden asks for them."
+    assert (note in done.err) is noted
 
 
 def test_a_plane_that_only_touches_is_told(hlr_real):
