@@ -72,20 +72,20 @@ def patterns_of(parts: Mapping[str, Sequence[Floats]], paper: float) -> dict[str
     areas = {name: abs(sum(map(_area, loops))) for name, loops in parts.items()}
     # The large faces come first: they have the usual lines.
     order = sorted(parts, key=lambda name: (-areas[name], name))
-    boxes = {name: _box(loops) for name, loops in parts.items()}
-    sides = {name: _sides(loops) for name, loops in parts.items()}
-    found: dict[str, Pattern] = {}
-    for name in order:
-        near = [found[other] for other in found if _touch(boxes[name], boxes[other], sides[name], sides[other])]
-        low, high = boxes[name]
+    boxes = np.array([_box(parts[name]) for name in order]).reshape(-1, 2, 2)
+    sides = [_sides(parts[name]) for name in order]
+    found: list[Pattern] = []
+    for k, name in enumerate(order):
+        near = [found[other] for other in _meeting(boxes, k) if _touch(boxes[k], boxes[other], sides[k], sides[other])]
+        low, high = boxes[k]
         least = float(np.hypot(*(high - low))) / MOST_ACROSS
         usual = _usual(areas[name], paper)
         choices = [Pattern(angle, max(_stepped(usual, steps), least)) for angle, steps in CANDIDATES]
         # Best is another direction; where neighbours have both, another spacing.
         turned = [own for own in choices[:2] if all(own.angle != other.angle for other in near)]
         apart = [own for own in choices if not any(map(own.like, near))]
-        found[name] = next(iter((*turned, *apart)), choices[len(near) % len(choices)])
-    return found
+        found.append(next(iter((*turned, *apart)), choices[len(near) % len(choices)]))
+    return dict(zip(order, found, strict=True))
 
 
 def hatched(loops: Sequence[Floats], pattern: Pattern, shortest: float) -> Floats:
@@ -124,11 +124,17 @@ def _sides(loops: Sequence[Floats]) -> Floats:
     return np.concatenate([np.stack([loop, np.roll(loop, -1, axis=0)], axis=1) for loop in loops])
 
 
-def _touch(one: tuple[Floats, Floats], other: tuple[Floats, Floats], a: Floats, b: Floats) -> bool:
-    """Whether two parts touch. one, other: their boxes; a, b: their sides."""
+def _meeting(boxes: Floats, number: int) -> list[int]:
+    """Those of the parts before this one whose boxes (n, 2, 2) meet its own."""
+    own, others = boxes[number], boxes[:number]
+    meet = ((others[:, 0] - TOUCH <= own[1]) & (others[:, 1] + TOUCH >= own[0])).all(axis=1)
+    found: list[int] = np.flatnonzero(meet).tolist()
+    return found
+
+
+def _touch(one: Floats, other: Floats, a: Floats, b: Floats) -> bool:
+    """Whether two parts touch whose boxes meet. one, other (2, 2): the boxes; a, b: their sides."""
     low, high = np.maximum(one[0], other[0]) - TOUCH, np.minimum(one[1], other[1]) + TOUCH
-    if (low > high).any():
-        return False
     a, b = (_reaching(sides, low, high) for sides in (a, b))
     if 2 * len(a) * len(b) > MOST_COMPARED:
         return True

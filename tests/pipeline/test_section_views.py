@@ -1,5 +1,7 @@
 """Section views: what is cut away, what is stated and written, and what is said where nothing is cut."""
 
+import gc
+
 import cadquery as cq
 import numpy as np
 import pytest
@@ -225,3 +227,24 @@ def test_a_model_is_compared_with_its_section(tmp_path):
 def test_a_plan_is_that_of_a_whole_model():
     with pytest.raises(OptionError, match="a plan is that of a whole model: leave out section"):
         hlr.plan_views(plate(), ["front"], hlr.Options(section=True))
+
+
+def test_a_page_and_a_drawing_within_a_time_cut_the_model_once_and_forget_it(monkeypatch):
+    from hlr.pipeline.section import draw
+    from hlr.source import open_source
+
+    cuts = []
+    cut_source = draw.cut_source
+    monkeypatch.setattr(draw, "cut_source", lambda *asked: cuts.append(1) or cut_source(*asked))
+    source = open_source(plate())
+    page = hlr.draw_arranged(source, options=hlr.Options(section={"front": True}))
+    assert len(cuts) == 1
+    assert hlr.draw_arranged(plate(), options=hlr.Options(section={"front": True})).lines == page.lines
+    hlr.draw(source, "front", section={"front": True}, within=1.0)
+    assert len(cuts) == 2
+    assert hlr.draw(source, "front", section=1.0).section.point[1] == 1.0
+    assert len(cuts) == 3
+    before = len(draw._KNOWN)
+    del source
+    gc.collect()
+    assert len(draw._KNOWN) < before

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
+from weakref import WeakKeyDictionary
 
 from hlr.common.clock import lap
 from hlr.common.types import Progress
@@ -19,6 +20,8 @@ from hlr.pipeline.session import Session
 from hlr.request.directions import directed
 from hlr.request.options import Options, Request, View
 from hlr.request.section import place_of
+from hlr.source.cad.brep_source import BrepSource
+from hlr.source.mesh.mesh_source import MeshSource
 from hlr.source.model import Source
 from hlr.source.selection import matching, open_selected
 
@@ -30,6 +33,10 @@ class _Cut:
     plane: Plane
     source: CutSource
     seconds: float
+
+
+_KNOWN: WeakKeyDictionary[Source, dict[Any, _Cut]] = WeakKeyDictionary()
+"""Sections of a source that is there still: the passes of a drawing within a time, or of a page, cut it once."""
 
 
 def draw_sections(
@@ -80,9 +87,18 @@ def _cut_for(view: View, source: Source, options: Options) -> _Cut | None:
     place = place_of(options.section, view)
     if place is None:
         return None
-    started = perf_counter()
-    plane = plane_of(place, view, source, options)
-    return _Cut(plane, cut_source(source, plane, matching(options.uncut, source, "uncut")), perf_counter() - started)
+    known = _KNOWN.setdefault(source, {}) if isinstance(source, BrepSource | MeshSource) else {}
+    # True and 1.0 are equal.
+    key = directed(view)[1], place is True, place, tuple(options.uncut)
+    if key not in known:
+        started = perf_counter()
+        plane = plane_of(place, view, source, options)
+        cut = cut_source(source, plane, matching(options.uncut, source, "uncut"))
+        found = _Cut(plane, cut, perf_counter() - started)
+        if cut.source is source:
+            return found
+        known[key] = found
+    return known[key]
 
 
 def _of_section(options: Options) -> Options:
