@@ -17,7 +17,6 @@ from __future__ import annotations
 import contextlib
 import math
 import os
-import re
 import select
 import signal
 import threading
@@ -27,8 +26,10 @@ from typing import NoReturn
 
 from hlr.common.leftovers import Leftovers
 from hlr.common.process import CRASHES, claim, tie_to, without_core_files
+from hlr.common.stage_times import StageTimes
 from hlr.errors import OptionError, SourceError
 from hlr.tables.readers import DOING, of_ending
+from hlr.tables.stages import given_up
 
 from .signals import STOPPING, Stopped, hang_up_ignored
 
@@ -40,6 +41,9 @@ _GLANCE = 0.25
 
 _HELPER = "helper"
 """What a report on a helper begins with."""
+
+_DONE = "done"
+"""What the last report begins with; the exit code follows."""
 
 _RESULTS = (0, 1)
 """Exit codes of a command that has done its work: `hlr compare` says by 1 that drawings differ."""
@@ -63,11 +67,12 @@ def allow() -> None:
     _Worker.parent = os.getppid() if _Worker.allowed else None
 
 
-def start(source: str, limit_s: float | None = None) -> None:
+def start(source: str, limit_s: float | None = None, coarser: str = "ask for a larger --accuracy") -> None:
     """Continue in a worker. In the process that was started this never returns.
 
     That process raises SourceError, CrashError or Stopped, by what ended the worker. limit_s: seconds after which it
-    ends the worker itself. Raises OptionError where there is a limit, and can be no worker.
+    ends the worker itself; coarser: what helps then where accuracy took the time; empty: nothing.
+    Raises OptionError where there is a limit, and can be no worker.
     """
     if not _Worker.allowed or threading.active_count() > 1:
         if limit_s is not None:
@@ -89,7 +94,7 @@ def start(source: str, limit_s: float | None = None) -> None:
         _forward(ending)
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
         left.adopt()
-        _wait(ending, reading, Path(source), limit_s)
+        _wait(ending, reading, Path(source), limit_s, coarser)
     os.close(reading)
     signal.pthread_sigmask(signal.SIG_SETMASK, before)
     _Worker.allowed, _Worker.notes = False, writing
@@ -147,7 +152,7 @@ def _forward(ending: _Ending) -> None:
             signal.signal(number, forward)
 
 
-def _wait(ending: _Ending, reading: int, source: Path, limit_s: float | None) -> NoReturn:
+def _wait(ending: _Ending, reading: int, source: Path, limit_s: float | None, coarser: str) -> NoReturn:
     notes, end = _Notes(reading), math.inf if limit_s is None else time.monotonic() + limit_s
     while not (ended := os.waitpid(ending.worker, os.WNOHANG))[0]:
         notes.listen(max(min(_GLANCE, end - time.monotonic()), 0.01))
@@ -158,17 +163,15 @@ def _wait(ending: _Ending, reading: int, source: Path, limit_s: float | None) ->
         ending.insist()
     code = os.waitstatus_to_exitcode(ended[1])
     notes.rest(0.0)
-    stage, _, done = notes.last().partition(" ")
-    if stage != "done" or int(done) not in _RESULTS:
+    stage, done = notes.times.stage, notes.done
+    if done not in _RESULTS:
         ending.left.kill(but=notes.helpers)
         notes.rest(_PATIENCE if code < 0 else 0.0)
-    if stage == "done":  # whatever became of it after that
-        os._exit(int(done))
-    if ending.late:
-        raise SourceError(
-            f"{source.name} took longer than {limit_s:g} s and was given up: raise --time-limit, or ask for a larger "
-            "--accuracy"
-        )
+    if done is not None:  # whatever became of it after that
+        os._exit(done)
+    if ending.late and limit_s is not None:
+        reader = of_ending(source.suffix)
+        raise SourceError(given_up(source.name, reader, limit_s, notes.times.longest(), "--time-limit", coarser))
     if ending.told:
         raise Stopped(ending.told)
     _explain(source, stage, code)
@@ -213,10 +216,17 @@ def end_when_orphaned() -> None:
 
 
 class _Notes:
-    """What the worker says that it does. helpers: numbers of its processes that end by themselves."""
+    """What the worker says that it does.
+
+    times    of its stages
+    done     its exit code, once it has done all; None: it has not
+    helpers  numbers of its processes that end by themselves
+    """
 
     def __init__(self, reading: int) -> None:
-        self._reading, self._open, self._text = reading, True, b""
+        self._reading, self._open, self._rest = reading, True, b""
+        self.times = StageTimes()
+        self.done: int | None = None
         self.helpers: set[int] = set()
 
     def listen(self, seconds: float) -> bool:
@@ -226,9 +236,9 @@ class _Notes:
         elif select.select([self._reading], [], [], seconds)[0]:
             piece = os.read(self._reading, 4096)
             self._open = bool(piece)
-            text = self._text + piece
-            self.helpers.update(int(number) for number in re.findall(rb"^%b (\d+)\n" % _HELPER.encode(), text, re.M))
-            self._text = text[-4096:]
+            *lines, self._rest = (self._rest + piece).split(b"\n")
+            for line in lines:
+                self._take(line.decode("utf-8", "replace"))
             return self._open
         return False
 
@@ -238,7 +248,11 @@ class _Notes:
         while self.listen(max(end - time.monotonic(), 0.0)):
             pass
 
-    def last(self) -> str:
-        """The last stage, or how all ended."""
-        lines = [line for line in self._text.decode("utf-8", "replace").splitlines() if not line.startswith(_HELPER)]
-        return lines[-1] if lines else ""
+    def _take(self, line: str) -> None:
+        match line.split(" "):
+            case [word, number] if word == _HELPER:
+                self.helpers.add(int(number))
+            case [word, code] if word == _DONE:
+                self.done = int(code)
+            case _:
+                self.times.begin(line)

@@ -11,7 +11,7 @@ from hlr.errors import OptionError
 from hlr.request.concerns import OF_SOURCES
 from hlr.request.directions import EYE, NAMED
 
-from .parameters import Scale, ScriptParameter, Size, Vector, Vector3, ViewName, Window
+from .parameters import Duration, Scale, ScriptParameter, Size, Vector, Vector3, ViewName, Window
 
 if TYPE_CHECKING:
     from hlr.request.options import Perspective, View
@@ -148,6 +148,13 @@ CARE = (
         default=30.0,
         help="Meshes: angle between two triangles from which an edge is drawn. Default: 30.",
     ),
+)
+
+TIME_LIMIT = click.option(
+    "--time-limit",
+    type=Duration(),
+    metavar="TIME",
+    help="Give up after this time, and end a script with all that it has started: 60s, 5min. Not on Windows.",
 )
 
 RUN = (

@@ -92,11 +92,13 @@ def _without_effect(asked: Asked, refused: bool) -> Iterator[tuple[str, str]]:
 
 
 def _for_sources(of: OfSources, asked: Asked) -> str:
-    source = Path(asked.values.get("source") or "")
-    reader = of_ending(source.suffix)
-    if reader is None or of.fits(reader):
+    named = (asked.values.get(each) for each in ("source", "before", "after"))
+    readers = {Path(source).name: of_ending(Path(source).suffix) for source in named if source}
+    known = {name: reader for name, reader in readers.items() if reader is not None}
+    if not known or any(map(of.fits, known.values())):
         return ""
-    return f"has no effect{of.but}: it is for {of.whose}, and {source.name} is {reader.noun or 'a mesh'}"
+    whose = listed((f"{name} is {reader.noun or 'a mesh'}" for name, reader in known.items()), "and")
+    return f"has no effect{of.but}: it is for {of.whose}, and {whose}"
 
 
 def _for_formats(formats: tuple[str, ...], asked: Asked) -> str:
@@ -187,6 +189,7 @@ _DRAWS = (
     "baseline",
     "fail_on_change",
     "strict",
+    "time_limit",
     "no_cache",
 )
 _RUNS = ("jobs", "address", "baseline", "fail_on_change")
@@ -215,7 +218,7 @@ ROWS: tuple[Row, ...] = (
         refused=True,
     ),
     Row(("view", "no_cache"), _without("source", "is for a model: name one, or leave it out"), "methods", refused=True),
-    Row(("coarse", "time_limit"), _without("against", "is for --against: leave it out"), "compare", refused=True),
+    Row(("coarse",), _without("against", "is for --against: leave it out"), "compare", refused=True),
     Row(_DRAWS, _with("init", "is for a batch, and --init draws none: leave it out"), "batch", refused=True),
     Row(
         ("only_list", "dry_run", "watch"),
@@ -224,6 +227,8 @@ ROWS: tuple[Row, ...] = (
         refused=True,
     ),
     Row(("fail_on_change",), _with("watch", "has no use with --watch, which has no exit code"), "batch", refused=True),
-    Row((*_RUNS, "strict", "no_cache"), _with("only_list", "has no effect: --list draws nothing"), "batch"),
+    Row(
+        (*_RUNS, "strict", "time_limit", "no_cache"), _with("only_list", "has no effect: --list draws nothing"), "batch"
+    ),
     Row(_RUNS, _with("dry_run", "has no effect: --dry-run draws nothing"), "batch"),
 )

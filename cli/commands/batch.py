@@ -18,7 +18,7 @@ from hlr.tables.writers import WRITERS
 from .. import signals
 from ..batch_progress import Lines, progress
 from ..exits import remark
-from ..parameters import Vector3, ViewName
+from ..parameters import Duration, Vector3, ViewName
 from ..verb import Verb
 from ..view_options import NO_CACHE
 
@@ -60,6 +60,12 @@ CHANGED = 3
     type=click.IntRange(1, 1024),
     metavar="N",
     help="Sources drawn at the same time. Default: one on each core.",
+)
+@click.option(
+    "--time-limit",
+    type=Duration(),
+    metavar="TIME",
+    help="Give up a source that takes longer, and draw the rest: 60s, 5min. Default: what the manifest says, or 10min.",
 )
 @click.option(
     "--on",
@@ -159,12 +165,14 @@ class _Asked:
         formats: Sequence[str],
         arrange: str | None,
         strict: bool,
+        time_limit: float | None,
     ) -> None:
         self._sources, self._output, self._strict = sources, output, strict
         self._given = {
             "views": [view if isinstance(view, str) else list(view) for view in views],
             "formats": list(formats),
             "arrange": arrange,
+            "time_limit_s": time_limit,
         }
 
     @property

@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from hlr.errors import OptionError
-from hlr.tables.readers import is_model
+from hlr.tables.readers import is_model, of_ending
 
 from ..guard import start
+from ..meter import meter
 from ..outputs import Target, check, place
 from ..parameters import Scale, ViewName
+from ..signals import tidily
 from ..streams import result_only
 from ..verb import Verb
+from ..view_options import CHOICE, TIME_LIMIT, options
 
 if TYPE_CHECKING:
     from hlr.compare.compare import Registration
+    from hlr.compare.failing import FailOn
     from hlr.request.options import View
 
 DIFFERENT = 1
@@ -59,6 +63,7 @@ _MOST_ROWS = 20
     help="Of the model that is A or B: a name or a direction. Default: the view that the other side states, else the "
     "named one that it shows.",
 )
+@options(*CHOICE)
 @click.option(
     "--scale",
     type=Scale(),
@@ -69,17 +74,18 @@ _MOST_ROWS = 20
 @click.option(
     "--against",
     type=click.Choice(["freecad"]),
-    help="Compare hlr's drawing of the model A with that of an installed FreeCAD, which is run without its window. "
-    "--view is iso then, if none is given.",
+    help="Compare hlr's drawing of the model A with that of an installed FreeCAD, which is run without its window "
+    "and has 120 s, unless --time-limit says else. --view is iso then, if none is given.",
 )
 @click.option("--coarse", is_flag=True, help="With --against: FreeCAD's coarse view, which is faster.")
 @click.option(
-    "--time-limit",
-    type=click.FloatRange(min=0.0, min_open=True),
-    metavar="S",
-    default=120.0,
-    help="With --against: seconds that FreeCAD may take. Default: 120.",
+    "--fail-on",
+    type=click.Choice(["any", "ours", "never"]),
+    default="any",
+    help="What makes the exit code 1: any difference; only those in which hlr's own drawing of the model is wrong, "
+    "or of which none was judged; nothing. Default: any.",
 )
+@TIME_LIMIT
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing; the exit code tells.")
 def compare(  # noqa: PLR0913 - one for each option of the command
     *,
@@ -93,8 +99,10 @@ def compare(  # noqa: PLR0913 - one for each option of the command
     scale: float | None,
     against: str | None,
     coarse: bool,
-    time_limit: float,
+    fail_on: FailOn,
+    time_limit: float | None,
     quiet: bool,
+    **choice: Any,
 ) -> int:
     """Tell what differs from drawing A to drawing B.
 
@@ -109,10 +117,11 @@ def compare(  # noqa: PLR0913 - one for each option of the command
       hlr compare freecad_view.svg part.step
       hlr compare drawing.dxf part.step --view iso
       hlr compare freecad_page.svg housing.FCStd --page Page
-      hlr compare --against freecad part.step --view front
+      hlr compare --against freecad part.step --view front --fail-on ours
 
-    Exit codes, as those of diff: 0 the same, 1 different, 2 a file or an option was refused.
+    Exit codes, as those of diff: 0 the same, 1 different (--fail-on), 2 a file or an option was refused.
     """
+    from hlr.compare.failing import fails, who_is_wrong
     from hlr.compare.overlay.table import left_out, rows, view_rows
 
     if against is not None and (after is not None or page is not None):
@@ -126,26 +135,37 @@ def compare(  # noqa: PLR0913 - one for each option of the command
     for source in sides:
         check(targets, source)
     models = [side for side in sides if is_model(side)]
-    if models:
-        start(models[0])
+    if fail_on == "ours" and len(models) != 1:
+        raise OptionError(
+            "--fail-on ours asks rays on a model which drawing is right: name one model, and a drawing of it"
+        )
+    if models or time_limit is not None:
+        start(_blamed(models or sides), time_limit, coarser="ask for a larger --tolerance")
     with result_only() as out:
-        if after is None:
-            from hlr.compare.freecad import compare_with_freecad
+        with meter(quiet) as progress:
+            more: dict[str, Any] = {"tolerance_mm": tolerance, "scale": scale, "progress": progress, **choice}
+            if after is None:
+                from hlr.compare.freecad import TIME_LIMIT_S, compare_with_freecad
 
-            found = compare_with_freecad(
-                before, view or "iso", scale=scale, coarse=coarse, tolerance_mm=tolerance, time_limit_s=time_limit
-            )
-        else:
-            from hlr.compare import compare as compared
+                limit = TIME_LIMIT_S if time_limit is None else time_limit
+                with tidily():  # FreeCAD and its folder are gone when a signal ends the command
+                    found = compare_with_freecad(before, view or "iso", coarse=coarse, time_limit_s=limit, **more)
+            else:
+                from hlr.compare import compare as compared
 
-            found = compared(
-                before, after, tolerance_mm=tolerance, register=register, page=page, view=view, scale=scale
-            )
+                found = compared(before, after, register=register, page=page, view=view, **more)
         place([(target, found.rendered(f".{target.format}")) for target in targets])
         if not quiet:
-            told = [found.summary, *view_rows(found), *rows(found, _MOST_ROWS)[:-1], *left_out(found)]
+            judged = [who_is_wrong(found)] if fail_on == "ours" and not found.same else []
+            told = [found.summary, *judged, *view_rows(found), *rows(found, _MOST_ROWS)[:-1], *left_out(found)]
             out.put("".join(f"{row}\n" for row in told).encode("utf-8", "replace"))
-    return 0 if found.same else DIFFERENT
+    return DIFFERENT if fails(found, fail_on) else 0
+
+
+def _blamed(sides: list[str]) -> str:
+    """The side that is named where the work crashes or takes too long: a script, else the first."""
+    readers = ((side, of_ending(Path(side).suffix)) for side in sides)
+    return next((side for side, reader in readers if reader is not None and reader.kind == "script"), sides[0])
 
 
 def _target(output: str) -> Target:

@@ -29,6 +29,7 @@ from ..view_options import (
     CHOICE,
     RUN,
     SIZE,
+    TIME_LIMIT,
     VIEW,
     WINDOW,
     Command,
@@ -104,12 +105,7 @@ LINES: tuple[Callable[[Command], Command], ...] = (
     metavar="TIME",
     help="Draw coarsely first, then finer while time lasts: 2s, 500ms, 1min. Not finer than --accuracy.",
 )
-@click.option(
-    "--time-limit",
-    type=Duration(),
-    metavar="TIME",
-    help="Give up after this time, and end a script with all that it has started: 60s, 5min. Not on Windows.",
-)
+@TIME_LIMIT
 @click.option("--report", is_flag=True, help="Measure the accuracy that was reached; takes longer than the drawing.")
 @options(*CAMERA, *STYLE, *RUN)
 @click.option("--format", type=click.Choice(list(WRITERS)), help="Format, where the name does not say it.")

@@ -12,7 +12,7 @@ from ..meter import meter
 from ..streams import result_only
 from ..telling import tell_notes
 from ..verb import Verb
-from ..view_options import ANNOTATIONS, HIDDEN_OBJECTS, NO_CACHE, PARAMETERS
+from ..view_options import ANNOTATIONS, HIDDEN_OBJECTS, NO_CACHE, PARAMETERS, TIME_LIMIT
 
 if TYPE_CHECKING:
     from hlr.drawing.model_info import ModelInfo, PartReport
@@ -35,14 +35,15 @@ _LONGEST_NAME = 40
 @ANNOTATIONS
 @HIDDEN_OBJECTS
 @NO_CACHE
+@TIME_LIMIT
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
-def info(source: str, as_json: bool, quiet: bool, **chosen: Any) -> None:
+def info(source: str, time_limit: float | None, as_json: bool, quiet: bool, **chosen: Any) -> None:
     """List the parts of SOURCE, and their defects.
 
     closed: every edge has a face on both sides, and all faces are oriented alike.
     """
-    start(source)
+    start(source, time_limit, coarser="")
     encoding = sys.stdout.encoding if sys.stdout is not None else "utf-8"
     with result_only() as out:
         with meter(quiet) as progress:

@@ -13,7 +13,7 @@ from ..parameters import Pixels, ViewName
 from ..streams import result_only
 from ..telling import tell_written
 from ..verb import Verb
-from ..view_options import CHOICE, options
+from ..view_options import CHOICE, TIME_LIMIT, options
 
 if TYPE_CHECKING:
     from hlr.request.options import View
@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     default=10.0,
     help="Processor time for each method and scene, in seconds. Default: 10.",
 )
+@TIME_LIMIT
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
 def methods(  # noqa: PLR0913 - one for each option of the command
     *,
@@ -66,6 +67,7 @@ def methods(  # noqa: PLR0913 - one for each option of the command
     methods: tuple[str, ...],
     view: View,
     limit: float,
+    time_limit: float | None,
     quiet: bool,
     **chosen: Any,
 ) -> None:
@@ -77,7 +79,7 @@ def methods(  # noqa: PLR0913 - one for each option of the command
       hlr methods part.step --polygons 100 --limit 2 -o figures
     """
     targets = [] if output is None else in_folder(output, ("methods.csv", "methods.md", "methods.png"), source)
-    start(source or "methods")
+    start(source or "methods", time_limit, coarser="")
     with result_only() as out:
         with meter(quiet) as progress:
             from hlr.lab.methods import report

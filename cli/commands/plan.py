@@ -13,7 +13,7 @@ from ..guard import start
 from ..meter import meter
 from ..streams import result_only
 from ..verb import Verb
-from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, WINDOW, names_of, options
+from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, TIME_LIMIT, VIEW, WINDOW, names_of, options
 from .draw import LINES, request_of
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.command(cls=Verb)
 @click.argument("source")
 @VIEW
-@options(*CHOICE, *LINES, *SIZE, WINDOW, *CARE, *CAMERA, *RUN)
+@options(*CHOICE, *LINES, *SIZE, WINDOW, *CARE, TIME_LIMIT, *CAMERA, *RUN)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
 def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **chosen: Any) -> None:
@@ -36,12 +36,13 @@ def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **
     The model is read and meshed; visibility is not computed and nothing is drawn. `hlr draw --explain` adds what each
     step has cost.
     """
+    time_limit = chosen.pop("time_limit")
     names_of(views, chosen["eye"])
     if names_a_page(source, page := chosen["page"]):
         raise OptionError(f"{page} is no sheet, and pages of a document have no plan: hlr draw draws them")
     views = views or ("iso",)
     request = request_of(**chosen)
-    start(source)
+    start(source, time_limit)
     with result_only() as out:
         with meter(quiet) as progress:
             import hlr

@@ -16,7 +16,7 @@ from ..parameters import Pixels, Vector3
 from ..streams import result_only
 from ..telling import tell_notes, tell_written
 from ..verb import Verb
-from ..view_options import CAMERA, CARE, CHOICE, RUN, VIEW, names_of, options, perspective_of
+from ..view_options import CAMERA, CARE, CHOICE, RUN, TIME_LIMIT, VIEW, names_of, options, perspective_of
 
 if TYPE_CHECKING:
     from hlr.drawing.picture import Picture
@@ -57,7 +57,7 @@ if TYPE_CHECKING:
 @click.option("--specular", is_flag=True, help="Highlights.")
 @click.option("--depth", metavar="FILE", help="Also write a depth map: 16-bit grey, 0 is nearest, 65535 is background.")
 @click.option("--ids", metavar="FILE", help="Also write a map of the faces: their numbers as colours.")
-@options(*CARE, *CAMERA, *RUN)
+@options(*CARE, TIME_LIMIT, *CAMERA, *RUN)
 @click.option("--explain", is_flag=True, help="Print which steps were needed, and why.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress and no summary on the terminal.")
 def preview(
@@ -74,11 +74,12 @@ def preview(
     """
     names = names_of(views, chosen["eye"])
     views = views or ("iso",)
+    time_limit = chosen.pop("time_limit")
     maps = {name: chosen.pop(name) for name in ("depth", "ids")}
     request = _options(**chosen, depth=maps["depth"] is not None, ids=maps["ids"] is not None)
     targets = _targets(output, maps, source, names)
 
-    start(source)
+    start(source, time_limit)
     # Scripts and libraries may print: meanwhile only the result can reach standard output.
     with result_only() as out:
         with meter(quiet) as progress:

@@ -17,7 +17,9 @@ from typing import TYPE_CHECKING, Any
 from hlr.batch.frames import receive, send
 from hlr.batch.job import Job, Outcome, failed
 from hlr.common.process import CRASHES
+from hlr.common.stage_times import StageTimes
 from hlr.tables.readers import DOING, of_ending
+from hlr.tables.stages import READS, given_up
 
 if TYPE_CHECKING:
     import psutil
@@ -103,7 +105,7 @@ class Worker:
                 if said == "at":
                     running.moved(value)
                 elif said == "stage":
-                    running.stage = value
+                    running.times.begin(value)
                     self._said.put(Begun(number, value))
                 elif said == "ended":
                     return _ended(value)
@@ -112,7 +114,7 @@ class Worker:
                     break
         except (EOFError, OSError):
             code = self._stop()
-        why = running.verdict or _why(job, running.stage, code)
+        why = running.verdict or _why(job, running.times.stage, code)
         return failed(*why, seconds=round(time.monotonic() - started, 4))
 
     def _started(self) -> subprocess.Popen[bytes]:
@@ -144,7 +146,7 @@ class _Running:
     """The job that a worker does now: in which process, since when, and why it was ended, if it was."""
 
     def __init__(self, job: Job) -> None:
-        self._job, self.stage = job, ""
+        self._job, self.times = job, StageTimes()
         self.verdict: tuple[str, str] | None = None
         self._process: psutil.Process | None = None
         self._since = time.monotonic()
@@ -155,7 +157,7 @@ class _Running:
 
         with contextlib.suppress(psutil.Error):
             self._process = psutil.Process(pid)
-        self._since = time.monotonic()
+        self._since, self.times = time.monotonic(), StageTimes()
 
     def keep_within_limits(self) -> None:
         """Kill the process where it takes too long, or too much memory."""
@@ -166,16 +168,18 @@ class _Running:
             return
         with contextlib.suppress(psutil.Error):
             if time.monotonic() - self._since > job.time_limit_s:
+                reader, limit = of_ending(Path(job.source).suffix), "time_limit_s (--time-limit)"
+                longest = self.times.longest()
+                coarser = "ask for a larger accuracy"
                 self.verdict = (
                     "TimeLimit",
-                    f"{job.source} took longer than {job.time_limit_s:g} s and was given up: raise time_limit_s, or "
-                    "ask for a larger accuracy.",
+                    given_up(job.source, reader, job.time_limit_s, longest, limit, coarser) + ".",
                 )
             elif process.memory_info().rss > job.memory_limit_mb * 1e6:
                 self.verdict = (
                     "MemoryLimit",
                     f"{job.source} took more than {job.memory_limit_mb:g} MB of memory and was given up: raise "
-                    "memory_limit_mb, or ask for a larger accuracy.",
+                    "memory_limit_mb" + ("." if self.times.stage in READS else ", or ask for a larger accuracy."),
                 )
             else:
                 return

@@ -4,22 +4,27 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, Unpack, get_args
 
 import numpy as np
 
+from hlr.common.keywords import record_of, shown
 from hlr.compare.comparison import Comparison
 from hlr.compare.lines.motion import Motion
 from hlr.compare.matching.judge import judged
 from hlr.compare.matching.register import translation
 from hlr.compare.matching.similarity import laid_share, similarity
 from hlr.compare.matching.views import by_view
+from hlr.compare.reading.choice import Choice, Chosen
 from hlr.compare.reading.document import with_pages
 from hlr.compare.reading.model import sides_of, without_undrawn
 from hlr.compare.reading.sides import Side
 from hlr.compare.verdict.verdicts import with_verdicts
 from hlr.errors import OptionError
 from hlr.request.options import View
+
+if TYPE_CHECKING:
+    from hlr.common.types import Progress
 
 Registration = Literal["auto", "off", "translation", "similarity"]
 
@@ -38,6 +43,7 @@ ENOUGH_LAID = 0.3
 """Share of the lines of both that have to lie on one another, else rays would judge lines in the wrong place."""
 
 
+@shown(Choice)
 def compare(
     a: Any,
     b: Any,
@@ -47,6 +53,8 @@ def compare(
     page: str | None = None,
     view: View | None = None,
     scale: float | None = None,
+    progress: Progress | None = None,
+    **choice: Unpack[Chosen],
 ) -> Comparison:
     """What differs from drawing a to drawing b.
 
@@ -60,6 +68,9 @@ def compare(
     view          of the model, as of `hlr.draw`; None: the view that the other side states, or else the named one that
                   it shows, which is found
     scale         paper to model, of the drawing of another program; None: it is found
+    progress      called with the name of each stage and the fraction done, 0 to 1
+    choice        only, hide, var, parameters, annotations, hidden_objects: of the model that is a or b, or of both, as
+                  of `hlr.draw`. Where one of two models is a script, var and parameters are for that
 
     A model is drawn at the scale of the other side, with the lines that it has, hidden or smooth ones for example.
     Pages are compared view by view; unless register is "off", each view is moved onto that of the other page.
@@ -79,8 +90,11 @@ def compare(
         raise OptionError(f"the tolerance is {tolerance_mm!r}: give {limits} millimetres on paper")
     if register not in get_args(Registration):
         raise OptionError(f"register is {register!r}: give {' or '.join(get_args(Registration))}")
-    a, b = with_pages((a, b), page, tolerance_mm)
-    before, after = sides_of(a, b, tolerance_mm, view, scale)
+    chosen = record_of(Choice, choice, "compare")
+    a, b = with_pages((a, b), page, tolerance_mm, chosen, progress)
+    before, after = sides_of(a, b, tolerance_mm, view, scale, chosen, progress)
+    if progress is not None:
+        progress("compare", 0.0)
     scales = _scales(before, after)
     if scales is not None:
         after = replace(after, pieces=after.pieces.mapped(np.eye(2) * (scales[0] / scales[1])))

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from hlr.compare.compared_view import ComparedView
 from hlr.compare.difference import WORDS_OF_TWO_PROGRAMS, Difference, told
@@ -35,6 +35,7 @@ class Comparison:
     views          of two pages, each with what was found of it; empty: they were compared as a whole
     same_mm        length that is the same in both
     foreign        whether one of them is of another program: nothing is "new" then, but in one of them only
+    model_side     which side hlr drew of a model, where the other is a drawing of it: "first" or "second"; else None
     badly_laid     share of the lines that lie on one another, 0 to 1, where that is so little that nothing was judged
     left_out       what of each file is no line of its drawing, counted
     view_found     of a model, where it was not said: the view that the other side shows
@@ -57,6 +58,7 @@ class Comparison:
     views: tuple[ComparedView, ...]
     same_mm: float
     foreign: bool
+    model_side: Literal["first", "second"] | None
     badly_laid: float | None
     left_out: tuple[dict[str, int], dict[str, int]]
     view_found: str | None
@@ -88,6 +90,7 @@ class Comparison:
             views=views,
             same_mm=findings.same_mm,
             foreign=one.foreign or other.foreign,
+            model_side=_model_side(before, after),
             badly_laid=badly_laid,
             left_out=(one.left_out, other.left_out),
             view_found=one.view_found or other.view_found,
@@ -122,6 +125,21 @@ class Comparison:
     def verdicts_mm(self) -> dict[str, float]:
         """Millimetres of differences in which each drawing is right, where one of them was drawn of a model."""
         return self.findings.verdicts_mm
+
+    @property
+    def wrong_mm(self) -> float:
+        """Millimetres of differences in which hlr's own drawing of the model is wrong, `model_side`; else 0."""
+        right = (f"{self.model_side} right", "both right", "undecided", "")
+        return sum((each.length_mm for each in self._counted if each.verdict not in right), 0.0)
+
+    @property
+    def unjudged_mm(self) -> float:
+        """Millimetres of differences of which nobody knows which drawing is right: undecided, or not judged."""
+        return sum((each.length_mm for each in self._counted if each.verdict in ("undecided", "")), 0.0)
+
+    @property
+    def _counted(self) -> list[Difference]:
+        return [each for each in self.differences if not self.looks_same(each)]
 
     @property
     def summary(self) -> str:
@@ -169,10 +187,13 @@ class Comparison:
             "same_mm": self.same_mm,
             "views": [each.as_dict() for each in self.views],
             "view_found": self.view_found,
+            "model_side": self.model_side,
             "badly_laid": self.badly_laid,
             "left_out": list(self.left_out),
             "mm": self.lengths_mm,
             "verdicts_mm": self.verdicts_mm,
+            "wrong_mm": self.wrong_mm,
+            "unjudged_mm": self.unjudged_mm,
             "differences": [each.as_dict() for each in self.differences],
         }
 
@@ -219,6 +240,16 @@ class Comparison:
         path = path_of(file)
         write_all({path: self.rendered(ending_of(path))})
         return path
+
+
+def _model_side(before: Side, after: Side) -> Literal["first", "second"] | None:
+    """Which side is a model, where the other is none."""
+    match [side.behind is not None or bool(side.behind_views) for side in (before, after)]:
+        case [True, False]:
+            return "first"
+        case [False, True]:
+            return "second"
+    return None
 
 
 WRITERS: dict[str, Callable[[Comparison], bytes]] = {

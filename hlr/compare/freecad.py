@@ -17,15 +17,22 @@ import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Unpack
 
+from hlr.common.keywords import record_of, shown
 from hlr.compare.compare import compare
 from hlr.compare.comparison import Comparison
+from hlr.compare.reading.choice import Choice, Chosen
 from hlr.errors import OptionError, SourceError
 from hlr.pipeline.draw import draw_views
 from hlr.request.directions import axes, directed
-from hlr.request.options import Options, View
+from hlr.request.options import View
 from hlr.source import open_source
+from hlr.source.model import missing_of_source
+from hlr.source.selection import open_selected
+
+if TYPE_CHECKING:
+    from hlr.common.types import Progress
 
 TIME_LIMIT_S = 120.0
 
@@ -99,6 +106,7 @@ class Drawn:
     version: str
 
 
+@shown(Choice)
 def compare_with_freecad(
     model: Any,
     view: View = "iso",
@@ -107,6 +115,8 @@ def compare_with_freecad(
     coarse: bool = False,
     tolerance_mm: float = 0.1,
     time_limit_s: float = TIME_LIMIT_S,
+    progress: Progress | None = None,
+    **choice: Unpack[Chosen],
 ) -> Comparison:
     """What differs between FreeCAD's drawing of a model, which is the first, and the one of hlr.
 
@@ -116,6 +126,8 @@ def compare_with_freecad(
     coarse        by FreeCAD's coarse view, which is faster
     tolerance_mm  as of `compare`
     time_limit_s  seconds that FreeCAD may take
+    progress      called with the name of each stage and the fraction done, 0 to 1
+    choice        only, hide, var, parameters, annotations, hidden_objects: as of `hlr.draw`
 
     Raises OptionError where no FreeCAD is installed, SourceError where it does not draw the model.
 
@@ -124,14 +136,21 @@ def compare_with_freecad(
     'same: 140 mm of lines'
     """
     _command()
-    source = open_source(model)
+    chosen = record_of(Choice, choice, "compare_with_freecad")
+    options = chosen.options()
+    if progress is not None:
+        progress("source", 0.0)
+    source = open_selected(model, chosen)
     if scale is None:
-        scale = draw_views(source, [view], Options())[0].scale
-    drawn = drawn_by_freecad(model, view, scale=scale, coarse=coarse, time_limit_s=time_limit_s)
+        scale = draw_views(source, [view], options, progress)[0].scale
+    if progress is not None:
+        progress("FreeCAD", 0.0)
+    theirs = model if _is_read(model) and not (chosen.only or chosen.hide) else source
+    drawn = drawn_by_freecad(theirs, view, scale=scale, coarse=coarse, time_limit_s=time_limit_s)
     with tempfile.TemporaryDirectory(prefix="hlr-") as folder:
         path = Path(folder) / f"FreeCAD {drawn.version}{', coarse' if coarse else ''}.svg"
         path.write_text(drawn.svg)
-        return compare(path, source, tolerance_mm=tolerance_mm, view=view, scale=scale)
+        return compare(path, source, tolerance_mm=tolerance_mm, view=view, scale=scale, progress=progress)
 
 
 def drawn_by_freecad(
@@ -143,7 +162,7 @@ def drawn_by_freecad(
         raise OptionError(f"the time limit is {time_limit_s!r}: give a positive number of seconds")
     _, direction, up = directed(view)
     right, _ = axes(direction, up)
-    name = Path(model).name if isinstance(model, str | os.PathLike) else "the model"
+    name = _name(model)
     with tempfile.TemporaryDirectory(prefix="hlr-") as made:
         folder = Path(made)
         job = {
@@ -179,9 +198,20 @@ def _command() -> str:
     return found
 
 
+def _is_read(model: Any) -> bool:
+    """Whether FreeCAD reads the model itself."""
+    return isinstance(model, str | os.PathLike) and Path(model).suffix.lower() in _READ
+
+
+def _name(model: Any) -> str:
+    if isinstance(model, str | os.PathLike):
+        return Path(model).name
+    return "the model" if missing_of_source(model) else str(model.name)
+
+
 def _file_for_freecad(model: Any, name: str, folder: Path) -> Path:
     """A file of the model that FreeCAD reads. Raises SourceError for a mesh."""
-    if isinstance(model, str | os.PathLike) and Path(model).suffix.lower() in _READ:
+    if _is_read(model):
         from hlr.source.file_checks import check_readable
 
         check_readable(Path(model))

@@ -35,6 +35,18 @@ def hlr_batch(tmp_path):
 
 
 @pytest.mark.slow
+def test_a_time_limit_costs_the_source_that_takes_longer(hlr_batch):
+    tetrahedron(hlr_batch.folder / "a.off", 3)
+    (hlr_batch.folder / "endless.py").write_text("import cadquery\nresult = 1\nwhile True: pass\n")
+    (hlr_batch.folder / "hlr.toml").write_text('views = "iso"\nfiles = ["a.off", "endless.py"]\ntime_limit_s = 500\n')
+    done = hlr_batch("--time-limit", "4s")
+    assert done.returncode == 1 and "1 drawn, 0 unchanged, 1 failed" in done.stderr
+    assert "endless.py took longer than 4 s and was given up; the script itself ran for " in done.stderr
+    assert hlr_batch("--list", "--time-limit", "4s").stderr.startswith("hlr: note: --time-limit has no effect: --list")
+    assert "is not a time such as 2s" in hlr_batch("--time-limit", "0").stderr
+
+
+@pytest.mark.slow
 def test_a_folder_is_drawn_once(hlr_batch, tmp_path):
     for number in range(3):
         tetrahedron(hlr_batch.folder / f"{number}.off", number + 1)

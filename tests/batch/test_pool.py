@@ -29,8 +29,9 @@ SAID = {
     "exits.py": "exits.py ended its process before anything was drawn",
     "crashes.py": r"crashes.py crashed \(segmentation fault\)",
     "killed.py": "killed.py: the work was killed, most likely for want of memory",
-    "endless.py": "endless.py took longer than 2 s and was given up: raise time_limit_s",
-    "greedy.py": "greedy.py took more than 500 MB of memory and was given up: raise memory_limit_mb",
+    "endless.py": r"endless.py took longer than 2 s and was given up; the script itself ran for (2\.\d|1\.9) s of "
+    r"that: raise time_limit_s \(--time-limit\), or make the script faster\.$",
+    "greedy.py": r"greedy.py took more than 500 MB of memory and was given up: raise memory_limit_mb\.$",
     "wrong.py": "wrong.py, line 1: ZeroDivisionError: division by zero",
     "leaves.py": "leaves.py left with exit code 4",
     "noisy.py": "noisy.py, line 4: ZeroDivisionError",

@@ -4,9 +4,11 @@ import json
 from xml.etree import ElementTree
 
 import pytest
+import trimesh
 from PIL import Image
 
 from support.drawings import drawing, line
+from support.fragments import fragment
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -76,3 +78,58 @@ def test_the_same_bytes_each_time(hlr_real, tmp_path):
         hlr_real("compare", "a.svg", "b.svg", "--register", "translation", *outputs)
         made.append([(tmp_path / f"{number}.{end}").read_bytes() for end in ("svg", "png", "json")])
     assert made[0] == made[1]
+
+
+@pytest.fixture
+def model(tmp_path, hlr_real):
+    """pair.glb, of which plate.svg shows one part, the plate, as it was when it was 4 mm wider."""
+    for name, wide in (("old", 34), ("pair", 30)):
+        made = trimesh.Scene()
+        for part, size in (("plate", (wide, 4, 20)), ("bolt", (6, 30, 6))):
+            made.add_geometry(trimesh.creation.box(size), geom_name=part, node_name=part)
+        made.export(tmp_path / f"{name}.glb")
+    for name in ("old", "pair"):
+        asked = ("--view", "front", "--scale", "1", "--only", "plate")
+        assert hlr_real("draw", f"{name}.glb", *asked, "-o", f"{name}.svg").code == 0
+
+
+@pytest.mark.usefixtures("model")
+def test_what_makes_it_fail(hlr_real, tmp_path):
+    asked = ("compare", "old.svg", "pair.glb", "--only", "plate")
+    for on, code in (("any", 1), ("ours", 0), ("never", 0)):
+        result = hlr_real(*asked, "--fail-on", on, "-o", "d.json")
+        assert (result.code, result.err) == (code, "")
+        assert json.loads((tmp_path / "d.json").read_text())["model_side"] == "second"
+        assert ("hlr's own drawing is nowhere found to be wrong\n" in result.out) == (on == "ours")
+    assert hlr_real(*asked).code == 1
+    # Nothing speaks for hlr's drawing where rays are not asked: the drawings have little in common.
+    other = drawing([line([[0, y], [3 + 7 * y, 40 - y]]) for y in range(1, 20)])
+    (tmp_path / "other.svg").write_text(fragment(other))
+    result = hlr_real("compare", "other.svg", "pair.glb", "--view", "front", "--fail-on", "ours")
+    assert result.code == 1 and "nothing of it was judged" in result.out
+
+
+@pytest.mark.usefixtures("model")
+def test_parts_are_chosen(hlr_real):
+    asked = ("compare", "pair.svg", "pair.glb")
+    assert [hlr_real(*asked, *more).code for more in ((), ("--only", "plate"), ("--hide", "bo*"))] == [1, 0, 0]
+    for more in (("--only", "screw"), ("--param", "size=2"), ("--var", "a")):
+        drawn = hlr_real("draw", "pair.glb", *more, "-o", "new.svg")
+        assert hlr_real(*asked, *more) == drawn and drawn.code == 2
+    assert hlr_real(*asked, "--param", "a=1", "--param", "a=2").err == "hlr: --param gives a twice: give it once.\n"
+
+
+@pytest.mark.usefixtures("model")
+def test_who_is_right_is_asked_of_one_model(hlr_real):
+    for sides in (("old.svg", "pair.svg"), ("old.glb", "pair.glb")):
+        result = hlr_real("compare", *sides, "--fail-on", "ours")
+        assert (result.code, result.out) == (2, "")
+        assert result.err.startswith("hlr: --fail-on ours asks rays on a model which drawing is right: name one model")
+
+
+@pytest.mark.usefixtures("model")
+def test_what_is_for_other_models_has_no_effect(hlr_real):
+    result = hlr_real("compare", "old.glb", "pair.glb", "--hidden-objects")
+    assert result.err == (
+        "hlr: note: --hidden-objects has no effect: it is for FreeCAD, and old.glb is a mesh and pair.glb is a mesh.\n"
+    )

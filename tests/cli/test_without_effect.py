@@ -115,7 +115,8 @@ def test_dry_runs_say_what_is_for_drawing_alone(hlr_real, tmp_path):
     ("arguments", "message"),
     [
         (["methods", "--view", "top"], "--view is for a model: name one, or leave it out"),
-        (["compare", "a.svg", "b.svg", "--time-limit", "9"], "--time-limit is for --against: leave it out"),
+        (["batch", "--init", "--time-limit", "9"],
+         "--time-limit is for a batch, and --init draws none: leave it out"),
         (["compare", "a.svg", "b.svg", "--coarse"], "--coarse is for --against: leave it out"),
         (["batch", "--init", "--view", "top"], "--view is for a batch, and --init draws none: leave it out"),
         (["batch", "--init", "--list"], "--list and --init contradict one another: give one of them"),

@@ -8,6 +8,7 @@ import time
 
 import pytest
 
+import hlr
 from hlr.compare.freecad import compare_with_freecad, drawn_by_freecad
 from hlr.errors import OptionError, SourceError
 from support.installed_freecad import needs_freecad
@@ -93,6 +94,31 @@ def test_the_view_goes_over(stand_in, tmp_path):
     assert job["model"] == os.path.realpath(SCREW) and (job["scale"], job["coarse"]) == (0.5, True)
     assert job["direction"] == pytest.approx([3**-0.5, -(3**-0.5), 3**-0.5])
     assert job["right"] == pytest.approx([2**-0.5, 2**-0.5, 0.0])
+
+
+def test_a_script_is_run_once_and_goes_over_as_chosen(stand_in, tmp_path):
+    pytest.importorskip("cadquery")
+    script = tmp_path / "part.py"
+    script.write_text(
+        f"import cadquery as cq\nsize = 1\nopen({str(tmp_path / 'runs')!r}, 'a').write(f'{{size}}\\n')\n"
+        "show_object(cq.Workplane().box(1, 2, size), 'plate')\nshow_object(cq.Workplane().sphere(9), 'ball')\n"
+    )
+    stand_in(
+        f"import shutil\nshutil.copy(json.load(open(os.environ['HLR_JOB']))['model'], {str(tmp_path / 'm.brep')!r})"
+    )
+    with pytest.raises(SourceError, match=r"ended without a drawing of part\.py"):
+        compare_with_freecad(script, "front", only=["plate"], parameters={"size": 3})
+    assert (tmp_path / "runs").read_text() == "3\n"
+    bounds = hlr.info(tmp_path / "m.brep").bounds
+    assert [high - low for low, high in zip(*bounds, strict=True)] == pytest.approx([1, 2, 3])
+
+
+def test_of_a_file_that_freecad_reads_itself_chosen_parts_go_over(stand_in, tmp_path):
+    stand_in(f"import shutil\nshutil.copy(os.environ['HLR_JOB'], {str(tmp_path / 'job.json')!r})")
+    for chosen, read in (({}, True), ({"only": ["*screw*"]}, False)):
+        with pytest.raises(SourceError):
+            compare_with_freecad(SCREW, "front", scale=1.0, **chosen)
+        assert (json.loads((tmp_path / "job.json").read_text())["model"] == os.path.realpath(SCREW)) == read
 
 
 def test_meshes_are_refused(stand_in):

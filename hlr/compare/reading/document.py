@@ -5,22 +5,33 @@ from __future__ import annotations
 import os
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from hlr.compare.reading.choice import Choice
 from hlr.compare.reading.sides import Behind, DrawnPage
 from hlr.drawing.sheet import Sheet
 from hlr.errors import OptionError
 from hlr.pipeline.page.placed_view import PlacedView
 from hlr.public.pages import page_names, pages_with_views
 from hlr.request.accuracy import DEFAULT_ACCURACY
-from hlr.request.options import Options
+
+if TYPE_CHECKING:
+    from hlr.common.types import Progress
 
 ACCURACY_SHARE = 0.2
 """Of the tolerance: how exactly a page is drawn to be compared."""
 
 
-def with_pages(given: tuple[Any, Any], page: str | None, tolerance_mm: float) -> tuple[Any, Any]:
+def with_pages(
+    given: tuple[Any, Any],
+    page: str | None,
+    tolerance_mm: float,
+    choice: Choice | None = None,
+    progress: Progress | None = None,
+) -> tuple[Any, Any]:
     """Two sides, documents among them with their page drawn; page: name or label, or "Page/View" for one view.
+
+    choice: a page leaves none, and is refused with one.
 
     Raises SourceError, OptionError where there is no such document, page or view.
     """
@@ -29,7 +40,10 @@ def with_pages(given: tuple[Any, Any], page: str | None, tolerance_mm: float) ->
     documents = [_is_document(side) for side in given]
     if not any(documents):
         raise OptionError(f'the page "{page}" is said, and no side is a FreeCAD document (.FCStd): leave the page out')
-    a, b = (page_of(side, page, tolerance_mm) if drawn else side for side, drawn in zip(given, documents, strict=True))
+    a, b = (
+        page_of(side, page, tolerance_mm, choice, progress) if drawn else side
+        for side, drawn in zip(given, documents, strict=True)
+    )
     return a, b
 
 
@@ -37,14 +51,19 @@ def _is_document(given: Any) -> bool:
     return isinstance(given, str | os.PathLike) and Path(given).suffix.lower() == ".fcstd"
 
 
-def page_of(document: str | os.PathLike[str], page: str, tolerance_mm: float) -> DrawnPage:
+def page_of(
+    document: str | os.PathLike[str],
+    page: str,
+    tolerance_mm: float,
+    choice: Choice | None = None,
+    progress: Progress | None = None,
+) -> DrawnPage:
     """A page of a document, or one view of it, drawn to be compared: as of `with_pages`."""
     known = {name for pair in page_names(document) for name in pair}
     whole, mark, view = (page, "", "") if page in known else page.rpartition("/")
     accuracy = min(DEFAULT_ACCURACY, ACCURACY_SHARE * tolerance_mm)
-    ((drawing, placed),) = pages_with_views(
-        document, [whole if mark else page], Options(accuracy=accuracy, details=True)
-    )
+    options = (choice or Choice()).options(accuracy=accuracy, details=True)
+    ((drawing, placed),) = pages_with_views(document, [whole if mark else page], options, progress)
     shown = DrawnPage(drawing, {each.view.name: _behind(each) for each in placed if not each.cut})
     return one_view(shown, view) if mark else shown
 

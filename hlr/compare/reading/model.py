@@ -6,20 +6,24 @@ import math
 import os
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hlr.compare.lines.pieces import Pieces
 from hlr.compare.matching.match import Rule, divided_by
+from hlr.compare.reading.choice import Choice
 from hlr.compare.reading.sides import Behind, Side, is_drawing, side_of
 from hlr.compare.reading.stated_view import as_stated
 from hlr.compare.reading.view import Fit, found_view
 from hlr.errors import OptionError
 from hlr.pipeline.draw import draw_views
 from hlr.request.options import Options, View
-from hlr.source import open_source
+from hlr.source.selection import open_selected
 from hlr.tables.line_classes import by_number, optional
+
+if TYPE_CHECKING:
+    from hlr.common.types import Progress
 
 ACCURACY_SHARE = 0.2
 """Of the tolerance: how exactly a model is drawn to be compared with the drawing of another program."""
@@ -34,15 +38,26 @@ _DRAWN = 0.5
 """Share of the lines of one sort that the other drawing has, where it has such lines at all."""
 
 
-def sides_of(a: Any, b: Any, tolerance_mm: float, view: View | None, scale: float | None = None) -> tuple[Side, Side]:
+def sides_of(
+    a: Any,
+    b: Any,
+    tolerance_mm: float,
+    view: View | None,
+    scale: float | None = None,
+    choice: Choice | None = None,
+    progress: Progress | None = None,
+) -> tuple[Side, Side]:
     """Read both sides. A model is drawn in this view, or, where none is said, in the one that the other side shows.
 
-    scale  of a drawing that does not say it itself
+    scale   of a drawing that does not say it itself
+    choice  of a model
 
-    Raises SourceError where a side cannot be read, OptionError for a view where no side is a model, and for a scale
-    where no side is a drawing that does not say its own.
+    Raises SourceError where a side cannot be read, OptionError for a view or a choice where no side is a model, and for
+    a scale where no side is a drawing that does not say its own.
     """
+    choice = choice or Choice()
     drawn = is_drawing(a), is_drawing(b)
+    choice.check_of_models(drawn)
     if view is not None and all(drawn):
         raise OptionError("a view is said, and both sides are drawings already: leave it out, or name a model")
     if scale is not None and not (math.isfinite(scale) and scale > 0.0):
@@ -52,10 +67,10 @@ def sides_of(a: Any, b: Any, tolerance_mm: float, view: View | None, scale: floa
         return _with_scale((one, other), scale)  # type: ignore[return-value]
     if not any(drawn):
         _with_scale((), scale)
-        one = side_of_model(a, None, tolerance_mm, view)
-        return one, side_of_model(b, None, tolerance_mm, view)
+        one = side_of_model(a, None, tolerance_mm, view, choice.of(a, b), progress)
+        return one, side_of_model(b, None, tolerance_mm, view, choice.of(b, a), progress)
     (other,) = _with_scale((side_of(a if drawn[0] else b, tolerance_mm),), scale)
-    model = side_of_model(b if drawn[0] else a, other, tolerance_mm, view)
+    model = side_of_model(b if drawn[0] else a, other, tolerance_mm, view, choice, progress)
     return (other, model) if drawn[0] else (model, other)
 
 
@@ -72,7 +87,14 @@ def _with_scale(sides: tuple[Side, ...], scale: float | None) -> tuple[Side, ...
     )
 
 
-def side_of_model(given: Any, other: Side | None, tolerance_mm: float, view: View | None) -> Side:
+def side_of_model(
+    given: Any,
+    other: Side | None,
+    tolerance_mm: float,
+    view: View | None,
+    choice: Choice,
+    progress: Progress | None = None,
+) -> Side:
     """Draw a model as the other side shows it: its view, its scale, and all classes of line that it may have.
 
     The view is the one that the other side states, or else the named one that fits its lines best.
@@ -80,17 +102,19 @@ def side_of_model(given: Any, other: Side | None, tolerance_mm: float, view: Vie
     if other is not None and other.about.views:
         page = f"{other.title} is a page of {len(other.about.views)} views"
         raise OptionError(f"{page}, and a model is drawn in one: compare it with another page")
-    source = open_source(given)
-    options = _options(other, tolerance_mm)
+    options = _options(other, tolerance_mm, choice)
+    if progress is not None:
+        progress("source", 0.0)
+    source = open_selected(given, choice)
     fit = Fit(view or "iso", 1.0)
     stated = other.about.stated if other is not None and view is None else None
     if stated is not None:
         direction, options = as_stated(stated, source.frame, options)
         fit = Fit(direction, 1.0)
     elif other is not None and (view is None or other.about.scale is None):
-        fit = found_view(source, options, other, [] if view is None else [view])
+        fit = found_view(source, options, other, [] if view is None else [view], progress)
     scale = other.about.scale if other is not None and other.about.scale is not None else _nice(fit.scale)
-    drawing = draw_views(source, [fit.view], replace(options, scale=scale))[0]
+    drawing = draw_views(source, [fit.view], replace(options, scale=scale), progress)[0]
     side = side_of(drawing, tolerance_mm)
     name = Path(given).name if isinstance(given, str | os.PathLike) else source.name
     shown = drawing.view.name if stated is None else stated.name
@@ -98,17 +122,17 @@ def side_of_model(given: Any, other: Side | None, tolerance_mm: float, view: Vie
     return replace(side, title=f"{name}, {shown}", about=about, behind=Behind(source, drawing, to_suit=True))
 
 
-def _options(other: Side | None, tolerance_mm: float) -> Options:
+def _options(other: Side | None, tolerance_mm: float, choice: Choice) -> Options:
     """What a model is drawn with: whatever the other side has, or may have where it does not say."""
     if other is None:
-        return Options()
+        return choice.options()
     # A drawing of hlr was drawn with the usual accuracy, if nothing else was asked for.
     finest = _FINEST * float(other.pieces.extent.max())
     accuracy = max(ACCURACY_SHARE * tolerance_mm, finest) if other.about.foreign else None
     kinds, visible = other.pieces.kind, other.pieces.visible
     shown = {row.option: bool(np.isin(kinds, (row.number, -1)).any()) for row in optional() if row.option}
     hidden = bool((visible < 1).any())
-    return Options(accuracy=accuracy, hidden=hidden, details=other.about.foreign, **shown)  # type: ignore[arg-type]
+    return choice.options(accuracy=accuracy, hidden=hidden, details=other.about.foreign, **shown)
 
 
 def _nice(scale: float) -> float:

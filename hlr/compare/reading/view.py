@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +24,9 @@ from hlr.pipeline.draw import draw_views
 from hlr.request.directions import NAMED
 from hlr.request.options import Options, View
 from hlr.source.model import Source
+
+if TYPE_CHECKING:
+    from hlr.common.types import Progress
 
 _COARSE = 1.0 / 1000.0
 """Of the model's diagonal: how exactly views are drawn that are only tried."""
@@ -53,7 +56,9 @@ class Fit:
     scale: float
 
 
-def found_view(source: Source, options: Options, other: Side, views: Sequence[View]) -> Fit:
+def found_view(
+    source: Source, options: Options, other: Side, views: Sequence[View], progress: Progress | None = None
+) -> Fit:
     """Of these views, or of all that have a name, the one that fits the other side best, and its scale there."""
     named: list[View] = [name for name in NAMED if name != "iso-se"]
     tried = list(views) or named
@@ -61,7 +66,7 @@ def found_view(source: Source, options: Options, other: Side, views: Sequence[Vi
     known = other.about.scale
     coarse = _COARSE * size * (known or 1.0)
     rough = replace(options, scale=known or 1.0, accuracy=max(coarse, options.accuracy or 0.0), details=False)
-    drawn = [without_strays(side_of(drawing, coarse).pieces) for drawing in draw_views(source, tried, rough)]
+    drawn = [without_strays(side_of(drawing, coarse).pieces) for drawing in draw_views(source, tried, rough, progress)]
     shown = without_strays(other.pieces)
     apart = bool((shown.visible >= 0).all())
     fixed = _Picture.of(shown, float(np.hypot(*shown.extent)) / _CELLS, apart)
