@@ -11,10 +11,11 @@ class ComparedView:
     """A view of two pages.
 
     name       as its page calls it; "at (65, 165)", from the lower left corner of the page, where neither does
-    before     whether the first page has it; after: the second
+    before     whether the first page has it
+    after      whether the second page has it
     shift      (x, y) mm by which that of the second page was moved before it was compared; None: it was not
     displaced  whether that is more than what the other views were moved by
-    same_mm    length that is the same in both
+    same_mm    length that is the same in both, millimetres on paper
     mm         millimetres of each kind of difference
 
     >>> import hlr

@@ -29,11 +29,11 @@ class Comparison:
 
     before, after  what people call the two sides
     differences    each with its place, length, class, part and edge; by kind, the longest first
-    tolerance_mm   how far apart lines may lie that count as the same
+    tolerance_mm   how far apart lines may lie that count as the same, millimetres on paper
     motion         how the second drawing was moved before it was compared; None: it was not registered
-    scales         of the two drawings, where they differ: the second was compared at the scale of the first
+    scales         of the two drawings, paper to model, where they differ: the second is compared at that of the first
     views          of two pages, each with what was found of it; empty: they were compared as a whole
-    same_mm        length that is the same in both
+    same_mm        length that is the same in both, millimetres on paper
     foreign        whether one of them is of another program: nothing is "new" then, but in one of them only
     model_side     which side hlr drew of a model, where the other is a drawing of it: "first" or "second"; else None
     badly_laid     share of the lines that lie on one another, 0 to 1, where that is so little that nothing was judged

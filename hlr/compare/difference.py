@@ -36,14 +36,15 @@ class Difference:
     kind        gone and class or visibility changed are told of the first drawing, new of the second; "polyline":
                 one has straight pieces where the other has a curve; "doubled": a drawing has the line twice
     place       (x, y) of its middle, millimetres on paper, y up
-    length_mm   on paper
+    length_mm   its length, millimetres on paper
     line_class  sharp, smooth, seam, outline, boundary or intersection; "unknown" where its file does not say
     visible     whether the line is drawn as visible; None: unknown
     part, edge  as its drawing names them; None: unknown
     view        of the page; None: there is one
     side        "before" or "after": the drawing that the fields above are of
     became      the class or the visibility in the second drawing, where that has changed; else ""
-    moved_mm    how far it has moved, across its direction, or how far straight pieces lie off their curve; else 0
+    moved_mm    how far it has moved, across its direction, or how far straight pieces lie off their curve, millimetres;
+                else 0
     verdict     which drawing is right, where one of them was drawn of a model; "": not judged
     reason      why, in a few words
 

@@ -23,7 +23,7 @@ class Arc(ByValue):
     """An arc of a circle or an ellipse, or a whole one: centre + cos t axes[0] + sin t axes[1].
 
     centre   (2,) millimetres on paper, y up
-    axes     (2, 2) two perpendicular half axes, the longer one first
+    axes     (2, 2) two perpendicular half axes, the longer one first, millimetres
     angles   (2,) t at the start and at the end, radians; the arc runs backward where the second is less
 
     >>> import hlr

@@ -55,7 +55,12 @@ class Accuracy:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class DrawnPart(ByValue):
-    """A part as the drawing names it. color: sRGB 0..1; transform: (4, 4) placement, row major."""
+    """A part as the drawing names it.
+
+    name       unique in the drawing; on a page of several views that of the view stands before it: view/name
+    color      sRGB, 0 to 1; None: the source gives none
+    transform  (4, 4) matrix of its placement, row major, model units
+    """
 
     name: str
     color: tuple[float, float, float] | None
@@ -69,8 +74,14 @@ class DrawnPart(ByValue):
 class DrawnView:
     """The camera that was used, in model coordinates.
 
-    projection is "orthographic" or "perspective"; direction points from the object toward the viewer.
-    Perspective only: eye, target, fov (vertical, degrees), distance of the image plane from the eye.
+    name        of the view, such as "iso"; of one without a name its direction
+    projection  "orthographic" or "perspective"
+    direction   from the object toward the viewer, of length 1
+    right, up   what points to the right and up on paper, of length 1
+    eye         perspective only: where it is, model units
+    target      perspective only: what it looks at, model units
+    fov         perspective only: the vertical field of view, degrees
+    distance    perspective only: of the image plane from the eye, model units
     """
 
     name: str
@@ -91,9 +102,16 @@ class Drawing(ByValue):
     Drawings are equal that show and state the same; `request`, `timings` and `reading` do not count.
 
     source    base name of what was drawn
+    view      the camera
+    scale     paper to model
+    origin    (x, y) millimetres: what the lower left corner of the drawing has been moved by, so that it is 0, 0
+    parts     those that were drawn; lines name them by their place here
+    lines     visible and hidden ones
+    notes     warnings and remarks
+    counters  how much was found or done, by name
     accuracy  what was asked for and what was used
     unit      millimetres per model unit
-    up_axis   (3, 3) model frame -> z-up world
+    up_axis   (3, 3) rotation matrix: model frame -> z-up world
     fill      faces under the lines, in SVG and PDF; None unless asked for
     timings   seconds: source, tessellate, scene, plan, visibility, linework, total
     request   what was asked for; None for drawings that were made otherwise

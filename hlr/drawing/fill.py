@@ -15,7 +15,9 @@ from hlr.drawing.line import Points
 class Gradient(ByValue):
     """Colours along a straight line on paper, the same across it.
 
-    start, end (2,) millimetres, y up; shares (s,) of the way, ascending from 0 to 1; colors (s, 3) uint8 sRGB
+    start, end  (2,) millimetres on paper, y up
+    shares      (s,) of the way, ascending from 0 to 1
+    colors      (s, 3) uint8 sRGB: the colour at each share
     """
 
     start: Points
@@ -31,10 +33,14 @@ class Gradient(ByValue):
 class Fill(ByValue):
     """The visible areas of the faces, under the lines, in the order of painting.
 
-    points (n, 2) millimetres on paper, y up; loops (l + 1,) int32 into points, faces (f + 1,) int32 into loops, filled
-    by the even-odd rule; colors (f, 4) uint8 sRGB and opacity; gradient (f,) int32 index into gradients, -1 where the
-    colour is the same all over; part (f,) int32 index into Drawing.parts; spacing: millimetres between the points at
-    which visibility was sampled
+    points     (n, 2) millimetres on paper, y up: corners of all loops
+    loops      (l + 1,) int32: loop i has the points loops[i] to loops[i + 1] - 1
+    faces      (f + 1,) int32: face i has the loops faces[i] to faces[i + 1] - 1, and is filled by the even-odd rule
+    colors     (f, 4) uint8 sRGB and opacity
+    gradient   (f,) int32 index into gradients, -1 where the colour is the same all over
+    gradients  those that faces have
+    part       (f,) int32 index into Drawing.parts
+    spacing    millimetres on paper between the points at which visibility was sampled
     """
 
     points: Points

@@ -18,6 +18,9 @@ Points = npt.NDArray[np.float64]
 class Bounds(NamedTuple):
     """A rectangle on paper, millimetres, y up.
 
+    x0, y0  lower left corner
+    x1, y1  upper right corner
+
     >>> import hlr
     >>> bounds = hlr.draw("part.step", view="top", scale=1).bounds
     >>> bounds.width, bounds.height
@@ -46,6 +49,7 @@ class Line(ByValue):
 
     kind     the name of a class in `hlr.tables.line_classes`: sharp, smooth, seam, outline, boundary, intersection or
              hatch, of a cut face
+    visible  whether nothing is in front of it
     part     index into Drawing.parts
     edge     index in the part's TopExp edge map; None for meshes and outlines
     face     index in the part's TopExp face map for outlines and hatches; else None

@@ -13,6 +13,7 @@ Corner = tuple[float, float, float]
 class PartReport:
     """One part, as `hlr info` lists it.
 
+    name       of the part, unique in the model
     color      sRGB, 0 to 1; None: the source gives none
     solids     how many; 0 for meshes
     faces      of the B-rep; 0 for meshes

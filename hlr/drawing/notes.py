@@ -95,7 +95,10 @@ REMARKS: frozenset[NoteCode] = frozenset(
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """A warning or a remark: its code, one of `CODES`, and one sentence that says what happened, `str(note)`.
+    """A warning or a remark.
+
+    code  what kind it is, for programs: one of `CODES`
+    text  one sentence that says what happened, for people; also `str(note)`
 
     >>> import hlr
     >>> (note,) = hlr.draw(([(0, 0, 0), (30, 0, 0), (0, 20, 0)], [(0, 1, 2)])).notes

@@ -9,11 +9,11 @@ from hlr.drawing.line import Bounds
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """A page, and where the drawing lies on it. Millimetres.
+    """A page, and where the drawing lies on it.
 
     name           of the sheet, such as "A4"; of a page without a name its size, such as "300x200"
-    width, height  of the page
-    left, bottom   from the page's lower left corner to the drawing's, which is 0, 0 in the drawing's coordinates
+    width, height  of the page, millimetres
+    left, bottom   millimetres from the page's lower left corner to the drawing's, which is 0, 0 in its coordinates
 
     >>> import hlr
     >>> page = hlr.draw("part.step", view="top").page

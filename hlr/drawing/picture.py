@@ -28,6 +28,9 @@ class Picture(ByValue):
     """One view, shaded. Pictures are equal that show the same; `timings` do not count.
 
     source      base name of what is shown
+    view        the camera
+    parts       those that are shown
+    notes       warnings and remarks
     scale       pixels per millimetre of the model, in the image plane
     pixels      (h, w, 4) uint8: red, green, blue (sRGB) and straight opacity
     depth       (h, w) float64: millimetres from the eye's plane, along the view, of what is seen at the centre of each

@@ -24,6 +24,7 @@ class Errors:
     worst   the largest; None: not measured, and `why` says the reason
     usual   99 of 100 are at most this
     count   how many were measured: points of curves, changes, lines
+    why     there is none; None: there is
     where   where the largest is, for people
     """
 
@@ -38,9 +39,11 @@ class Errors:
 class Labels:
     """Lines judged by rays.
 
-    share    of the length judged, the part that is drawn visible where all rays are blocked, or hidden where none is
+    share    of the length judged, 0 to 1, that is drawn visible where all rays are blocked, or hidden where none is
     longest  the longest such stretch, millimetres on paper
     judged   length judged, millimetres on paper
+    why      nothing was judged; None: something was
+    where    where the longest stretch is, for people
     """
 
     share: float | None

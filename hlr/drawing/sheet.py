@@ -19,7 +19,8 @@ class SheetView:
     place      millimetres from the lower left corner of the page to the middle of the view
     rotation   degrees anticlockwise
     letter     of a section: A for A-A; empty where the model is whole
-    direction  toward the viewer; right: the direction to the right on paper, before the rotation
+    direction  toward the viewer, in the model
+    right      the direction in the model that points to the right on paper, before the rotation
     """
 
     name: str

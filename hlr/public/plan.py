@@ -20,9 +20,10 @@ from hlr.window.cut import decide_cut
 
 @dataclass(frozen=True, slots=True)
 class ViewPlan:
-    """What was decided for one view: one `Decision` per effect, in the order of the table.
+    """What was decided for one view. Times and counts are those of what had to be done in order to decide.
 
-    Times and counts are those of what had to be done in order to decide.
+    view       name of the view; of one without a name its direction
+    decisions  one per effect, in the order of the table
     """
 
     view: str

@@ -94,7 +94,7 @@ class Decision:
     on       whether it was needed
     origin   "asked" (by the request) or "scene"
     reason   why or why not, in words
-    seconds  None where the effect is no step of its own that could be timed
+    seconds  that it took; None where the effect is no step of its own that could be timed
     counts   how much was found or done, by the names of the drawing's counters
 
     >>> import hlr

@@ -30,10 +30,11 @@ SectionLike = SectionPlace | Mapping[str, SectionPlace]
 
 @dataclass(frozen=True, slots=True)
 class Perspective:
-    """A perspective camera. `eye` None: far enough along the view direction for the whole model to fit.
+    """A perspective camera. Places are those of the world (z up), whatever units and axes the model's own file has.
 
-    eye and target are millimetres in the world (z up), whatever units and axes the model's own file has.
-    fov is the vertical field of view in degrees; None: as wide as the model needs, at most 120.
+    eye     where it is, millimetres; None: far enough along the view direction for the whole model to fit
+    target  what it looks at, millimetres; None: the middle of the model
+    fov     vertical field of view, degrees; None: as wide as the model needs, at most 120
 
     >>> import hlr
     >>> drawing = hlr.draw("part.step", perspective=hlr.Perspective(fov=50))
@@ -167,7 +168,11 @@ class Wishes(TypedDict, total=False):
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What was asked for: one view with its options. Asked again, it gives the same drawing."""
+    """What was asked for. Asked again, it gives the same drawing.
+
+    view     a name, or the direction from the object toward the viewer
+    options  all else
+    """
 
     view: View
     options: Options

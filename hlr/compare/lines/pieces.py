@@ -24,8 +24,8 @@ class Pieces:
     """n straight pieces. Pieces of one line stand together, in their order along it.
 
     start, end  (n, 2) millimetres on paper, y up
-    along       (n, 2) the way that the line takes around a piece: a chord of two tolerances or more, where the line is
-                as long as that
+    along       (n, 2) the direction that the line takes around a piece: a chord of two tolerances or more, where the
+                line is as long as that
     line        (n,) number of the line, ascending
     kind        (n,) number of the line class; -1: unknown
     visible     (n,) 1 visible, 0 hidden, -1 unknown

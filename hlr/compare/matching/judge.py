@@ -57,9 +57,12 @@ _MOSTLY = 0.8
 
 @dataclass(slots=True)
 class Findings:
-    """Differences with the pieces (n, 2, 2) that show each, in one order.
+    """Differences, and the pieces that show them. Pieces are (n, 2, 2), millimetres on paper: start and end of each.
 
-    same  what both sides share, as the first has it; moved: where the second has what is displaced
+    differences  by kind, the longest first
+    traces       of each difference its pieces, in the same order
+    same         what both sides share, as the first has it; None: nothing was compared
+    moved        where the second has what is displaced
     """
 
     differences: list[Difference] = field(default_factory=list)

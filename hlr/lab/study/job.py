@@ -68,7 +68,12 @@ class Job:
 
 @dataclass(slots=True)
 class Cost:
-    """The cost of one stage: clock seconds, seconds of all processors together, and peak memory in MB."""
+    """The cost of one stage.
+
+    wall    seconds by the clock
+    cpu     seconds of all processors together
+    memory  at its peak, MB
+    """
 
     wall: float = 0.0
     cpu: float = 0.0
@@ -79,6 +84,10 @@ class Cost:
 class Point:
     """One contestant at one setting.
 
+    who       the contestant, one of `WHO`
+    setting   accuracy in millimetres on paper, or pixels of the depth buffer
+    runs      how often it was measured
+    counts    lines, triangles and the like, by name
     accuracy  millimetres on paper that were asked for; for a depth buffer the size of a pixel; None: it has no setting
     failure   one sentence on why there are no figures; None: there are figures
     stages    cost of each stage by name, medians over `runs`

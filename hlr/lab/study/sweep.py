@@ -27,6 +27,11 @@ PATIENCE = 3.0
 class Study:
     """All results of one model.
 
+    source  path of the model
+    view    a name, or the direction from the object toward the viewer
+    limit   seconds of processor time for each point
+    runs    how often each contestant draws at each point
+    points  what was measured, in the order of measuring
     look    what is drawn: name, scale, width, height, parts, lines, triangles
     truth   accuracy of the true lines, millimetres; None: they could not be drawn, and there are no errors
     arithmetic  per accuracy, the kernel's pass with each kind of arithmetic (`hlr.lab.study.arithmetic.Rounding`)
