@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from hlr.common.numbers import typed
+
 from ..guard import start
 from ..meter import meter
 from ..streams import result_only
@@ -89,8 +91,8 @@ def _document(model: ModelInfo) -> dict[str, Any]:
 
 def _table(model: ModelInfo) -> str:
     low, high = model.bounds
-    size = " x ".join(f"{(b - a) * model.unit:.6g}" for a, b in zip(low, high, strict=True))
-    unit = "" if model.unit == 1.0 else f", 1 unit = {model.unit:g} mm"
+    size = " x ".join(typed((b - a) * model.unit, places=12) for a, b in zip(low, high, strict=True))
+    unit = "" if model.unit == 1.0 else f", 1 unit = {typed(model.unit)} mm"
     rows = [_HEADINGS, *(_row(part) for part in model.parts)]
     if len(model.parts) > 1:
         rows.append(_total(model))

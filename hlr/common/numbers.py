@@ -1,8 +1,9 @@
-"""What counts as a number in options, manifests and styles."""
+"""What counts as a number in options, manifests and styles, and how messages write numbers."""
 
 from __future__ import annotations
 
 import math
+from decimal import Decimal
 from numbers import Real
 from typing import Any
 
@@ -21,3 +22,27 @@ def is_real(value: Any) -> bool:
 def is_finite(value: Any) -> bool:
     """Whether it is a number that a float can hold, neither NaN nor infinite."""
     return is_real(value) and math.isfinite(value)
+
+
+def typed(value: float, digits: int = 6, places: int = 9) -> str:
+    """A number in a message, as a person would type it: without exponent, and 0 without a sign.
+
+    digits: at most so many that say something; places: at most so many decimals, so what rounding leaves of 0 is 0.
+    Numbers of 1e15 and more, which nobody types, have an exponent.
+    """
+    if not abs(value) < _LONGEST:
+        return f"{value:.{digits}g}"
+    rounded = float(f"{round(value, places):.{digits}g}") + 0.0
+    text = format(Decimal(repr(rounded)), "f")
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def typed_below(value: float, digits: int) -> str:
+    """The same of a limit that is not to be exceeded: rounded toward 0, so that the number that is named is allowed."""
+    if not 0.0 < value < _LONGEST:
+        return typed(value, digits)
+    step = 10.0 ** (math.floor(math.log10(value)) + 1 - digits)
+    return typed(math.floor(value / step) * step, digits)
+
+
+_LONGEST = 1e15

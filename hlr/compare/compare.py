@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, Unpack, get_args
 import numpy as np
 
 from hlr.common.keywords import record_of, shown
+from hlr.common.numbers import typed
 from hlr.compare.comparison import Comparison
 from hlr.compare.lines.motion import Motion
 from hlr.compare.matching.judge import judged
@@ -87,7 +88,8 @@ def compare(
     number = isinstance(tolerance_mm, int | float) and not isinstance(tolerance_mm, bool)
     if not number or not SMALLEST_TOLERANCE_MM <= tolerance_mm <= LARGEST_TOLERANCE_MM:
         limits = f"{SMALLEST_TOLERANCE_MM:g} to {LARGEST_TOLERANCE_MM:g}"
-        raise OptionError(f"the tolerance is {tolerance_mm!r}: give {limits} millimetres on paper")
+        shown_mm = typed(tolerance_mm) if number else repr(tolerance_mm)
+        raise OptionError(f"the tolerance is {shown_mm}: give {limits} millimetres on paper")
     if register not in get_args(Registration):
         raise OptionError(f"register is {register!r}: give {' or '.join(get_args(Registration))}")
     chosen = record_of(Choice, choice, "compare")

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any, Literal, get_args
 
+from hlr.common.numbers import typed
+
 Kind = Literal["gone", "new", "moved", "class changed", "visibility changed", "polyline", "doubled"]
 
 Verdict = Literal["", "first right", "second right", "both right", "neither right", "undecided"]
@@ -75,5 +77,4 @@ class Difference:
 
 def told(length: float) -> str:
     """Millimetres for people: three digits, and no more than three decimals."""
-    rounded = round(length, 3) if abs(length) < 10.0 else round(length, 1)
-    return f"{rounded + 0.0:.10g}"
+    return typed(length, 10, 3 if abs(length) < 10.0 else 1)

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
+from hlr.common.numbers import typed
+
 
 def ratio(scale: float) -> str:
     """A scale as a drawing states it: 0.5 is "1:2"."""
-    return f"{_plain(scale)}:1" if scale >= 1.0 else f"1:{_plain(1.0 / scale)}"
-
-
-def _plain(number: float) -> str:
-    """Six digits at most, and no exponent."""
-    return f"{float(f'{number:.6g}'):.6f}".rstrip("0").rstrip(".")
+    return f"{typed(scale, places=6)}:1" if scale >= 1.0 else f"1:{typed(1.0 / scale, places=6)}"

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from hlr.common.numbers import typed
 from hlr.drawing.notes import Note
 from hlr.drawing.scale import ratio
 from hlr.request.options import Options
@@ -98,7 +99,7 @@ def misfit(size: Size, scale: float, paper: Paper) -> Note | None:
         return None
     fits = [sheet for sheet in SHEETS.values() if any(_most(size, _loose(p)) >= 1.0 for p in papers(sheet.name))]
     page = f", or the page {min(fits, key=lambda sheet: sheet.wide).name}" if fits else ""
-    width, height = (f"{own:.4g}" for own in size)
+    width, height = (typed(own, 4) for own in size)
     text = (
         f"the drawing, {width} x {height} mm at {ratio(scale)}, is too large for its page {paper.name}: "
         f"give the scale {ratio(standard_scale(scale * most))}{page}"

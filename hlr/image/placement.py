@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hlr.common.numbers import typed
 from hlr.common.types import Floats
 from hlr.drawing.notes import Note
 from hlr.drawing.scale import ratio
@@ -167,9 +168,9 @@ def _sized(
 def size_notes(diagonal: float, scale: float) -> tuple[Note, ...]:
     """What is said of a drawing (diagonal: millimetres) that its given scale makes very small or very large."""
     if 0.0 < diagonal < SMALLEST_PAPER:
-        size = f"only {diagonal:.2g} mm"
+        size = f"only {typed(diagonal, 2, 15)} mm"
     elif diagonal > LARGEST_PAPER:
-        size = f"{diagonal / 1000.0:.3g} m"
+        size = f"{typed(diagonal / 1000.0, 3)} m"
     else:
         return ()
     text = f"the drawing is {size} large at {ratio(scale)}: without a scale it gets one that fits a page"

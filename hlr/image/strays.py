@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from hlr.common.numbers import typed
 from hlr.common.types import Floats
 from hlr.drawing.notes import Note
 from hlr.image.camera import Camera
@@ -40,7 +41,8 @@ def stray_note(source: Source, camera: Camera) -> Note | None:
     who = f'the part "{stray[0]}" lies' if len(stray) == 1 else f"{len(stray)} parts lie"
     them = "it" if len(stray) == 1 else "them"
     listed = ", ".join(f'"{name}"' for name in stray)
-    text = f"{who} far from the rest, and the drawing is {ratio:.2g} times as large for {them}: leave {them} out with"
+    larger = f"the drawing is {typed(ratio, 2)} times as large for {them}"
+    text = f"{who} far from the rest, and {larger}: leave {them} out with"
     return Note("stray-parts", f"{text} {cure} (in Python, hide=[{listed}]).")
 
 

@@ -36,6 +36,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from hlr.common.numbers import typed, typed_below
 from hlr.errors import OptionError
 
 # Which accuracy is used.
@@ -288,18 +289,21 @@ def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) ->
     Raises OptionError where the accuracy is not positive, as coarse as the drawing, or finer than can be computed.
     """
     if not accuracy > 0.0 or accuracy == float("inf"):
-        raise OptionError(f"accuracy {accuracy:g} mm cannot be kept: give a positive length, such as 0.05")
+        raise OptionError(
+            f"accuracy {typed(accuracy, places=15)} mm cannot be kept: give a positive length, such as 0.05"
+        )
     if diagonal > 0.0 and accuracy > diagonal / 4.0:
         raise OptionError(
-            f"accuracy {accuracy:g} mm is too coarse for a drawing of {diagonal:.3g} mm: "
-            f"give at most {diagonal / 4.0:.3g}, or a larger scale"
+            f"accuracy {typed(accuracy, places=15)} mm is too coarse for a drawing of {typed(diagonal, 3, 15)} mm: "
+            f"give at most {typed_below(diagonal / 4.0, 3)}, or a larger scale"
         )
     finest = diagonal * (FINEST_BREP if brep else FINEST_MESH)
     if accuracy < finest:
         digit = 10.0 ** math.floor(math.log10(finest))
         given = math.ceil(finest / digit) * digit  # rounded up: the number that is named has to be accepted
         raise OptionError(
-            f"accuracy {accuracy:g} mm is too fine for a drawing of {diagonal:.3g} mm: give at least {given:.1g}"
+            f"accuracy {typed(accuracy, places=15)} mm is too fine for a drawing of {typed(diagonal, 3, 15)} mm: "
+            f"give at least {typed(given, 1, 15)}"
         )
     model = accuracy / per_model
     deflection = TESSELLATION * model

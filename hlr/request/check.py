@@ -9,7 +9,7 @@ from typing import Any, Protocol, cast
 
 import numpy as np
 
-from hlr.common.numbers import is_finite, is_real
+from hlr.common.numbers import is_finite, is_real, typed
 from hlr.errors import OptionError, ViewError
 from hlr.request.directions import check_directions
 from hlr.request.drawing_effects import left_to_view
@@ -103,7 +103,10 @@ def _with_size(options: Options) -> Options:
     if scale is not None:
         number = scale_of(scale) if isinstance(scale, str) or is_real(scale) else None
         if number is None or not 1.0 / MOST_SCALE <= number <= MOST_SCALE:
-            raise OptionError(f"scale {_shown(scale)} cannot be drawn: give a positive number or a ratio, 0.5 or 1:2")
+            limits = f", from 1:{typed(MOST_SCALE, 10)} to {typed(MOST_SCALE, 10)}:1" if number and number > 0.0 else ""
+            raise OptionError(
+                f"scale {_shown(scale)} cannot be drawn: give a positive number or a ratio, 0.5 or 1:2{limits}"
+            )
         if number != scale:
             options = replace(options, scale=number)
     if scale is not None and fit is not None:
@@ -114,7 +117,8 @@ def _with_size(options: Options) -> Options:
             raise OptionError(f"page and fit both name a sheet, {page!r} and {fit!r}: give one of them")
     elif fit is not None and (not _is_vector(fit, 2) or min(fit) < SMALLEST_FIT or max(fit) > LARGEST_FIT):
         raise OptionError(
-            f"fit needs a positive width and height in millimetres, such as 277x190, or a sheet such as A4, not {fit!r}"
+            "fit needs a positive width and height in millimetres, such as 277x190, or a sheet such as A4, not "
+            f"{_shown(fit)}"
         )
     if page is not None:
         _check_page(page)
@@ -187,13 +191,13 @@ def _parameters(values: Any) -> None:
 def _window(window: Any) -> None:
     if not _is_vector(window, 4) or max(map(abs, window)) > LARGEST_FIT:
         raise OptionError(
-            f"window needs x0,y0,x1,y1 in millimetres, four numbers of at most {LARGEST_FIT:g}, not {window!r}"
+            f"window needs x0,y0,x1,y1 in millimetres, four numbers of at most {typed(LARGEST_FIT, 8)}, "
+            f"not {_shown(window)}"
         )
     x0, y0, x1, y1 = window
     if x1 - x0 < SMALLEST_FIT or y1 - y0 < SMALLEST_FIT:
-        shown = ",".join(f"{value:g}" for value in window)
         raise OptionError(
-            f"the window {shown} holds nothing: give its lower left corner first, x0 < x1 and y0 < y1, "
+            f"the window {_shown(window)} holds nothing: give its lower left corner first, x0 < x1 and y0 < y1, "
             f"at least {SMALLEST_FIT:g} mm apart"
         )
 
@@ -203,15 +207,21 @@ def _perspective(camera: Any) -> None:
         raise OptionError(f"perspective needs an hlr.Perspective, not {camera!r}")
     for name, point in (("eye", camera.eye), ("target", camera.target)):
         if point is not None and not _is_vector(point, 3):
-            raise OptionError(f"{name} needs three finite numbers in millimetres, not {point!r}")
+            raise OptionError(f"{name} needs three finite numbers in millimetres, not {_shown(point)}")
         if point is not None and max(map(abs, point)) > FARTHEST:
-            raise OptionError(f"{name} {point!r} is too far away: give numbers of at most {FARTHEST:g} millimetres")
+            most = typed(FARTHEST, 13)
+            raise OptionError(f"{name} {_shown(point)} is too far away: give numbers of at most {most} millimetres")
     if camera.fov is not None and (not is_real(camera.fov) or not NARROWEST <= camera.fov <= WIDEST):
-        raise OptionError(f"a field of view of {camera.fov!r} degrees cannot be drawn: give {NARROWEST} to {WIDEST:g}")
+        raise OptionError(
+            f"a field of view of {_shown(camera.fov)} degrees cannot be drawn: give {NARROWEST} to {WIDEST:g}"
+        )
 
 
 def _shown(value: Any) -> str:
-    return f"{value:g}" if is_real(value) else repr(value)
+    """A number, or a tuple or list of numbers, as the command line takes it; anything else as Python writes it."""
+    if isinstance(value, tuple | list) and value and all(map(is_real, value)):
+        return ",".join(map(_shown, value))
+    return typed(float(value), 12) if is_real(value) else repr(value)
 
 
 def _is_strings(value: Any) -> bool:

@@ -9,6 +9,7 @@ from typing import Any, TypedDict
 
 import numpy as np
 
+from hlr.common.numbers import typed
 from hlr.errors import OptionError
 from hlr.request.check import checked
 from hlr.request.effect import ASKED, SCENE, Effect, Facts, Planner
@@ -164,7 +165,7 @@ def _glass(f: Facts, _o: PreviewOptions) -> tuple[bool, str]:
 
 
 def _tied(f: Facts, _o: PreviewOptions) -> tuple[bool, str]:
-    told = f"depths are told apart down to {f.depth:.2g} mm, a pixel is {f.pixel:.2g} mm"
+    told = f"depths are told apart down to {typed(f.depth, 2, 15)} mm, a pixel is {typed(f.pixel, 2, 15)} mm"
     return f.depth > f.pixel, told
 
 

@@ -8,6 +8,7 @@ from time import perf_counter
 import numpy as np
 import numpy.typing as npt
 
+from hlr.common.numbers import typed
 from hlr.drawing.fill import Fill
 from hlr.drawing.line import Bounds, Line
 from hlr.drawing.lines import bounds_of
@@ -75,4 +76,4 @@ def _beyond(box: Bounds, window: Bounds) -> int:
 
 
 def _shown(box: Bounds) -> str:
-    return ",".join(f"{round(value, PLACES) + 0.0:.6g}" for value in box)
+    return ",".join(typed(value, places=PLACES) for value in box)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from hlr.common.colors import rgb_of
+from hlr.common.numbers import typed
 from hlr.drawing.drawing import Drawing
 from hlr.errors import WriteError
 from hlr.request.style_check import DPI, MOST_PIXELS_A_SIDE
@@ -42,7 +43,7 @@ def _sheet(drawing: Drawing, page: Strokes) -> Sheet:
         factor = min(wide / width, high / height)
     if wide * high > MOST_PIXELS or max(wide, high) > MOST_PIXELS_A_SIDE:
         raise WriteError(
-            f"a page of {width:g} x {height:g} mm would be {wide} x {high} pixels, more than {MOST_PIXELS:,} "
+            f"a page of {typed(width)} x {typed(height)} mm would be {wide} x {high} pixels, more than {MOST_PIXELS:,} "
             f"or {MOST_PIXELS_A_SIDE} on a side: give fewer dpi, a size in pixels, or a smaller scale"
         )
     return Sheet(wide, high, factor, 0.5 * (wide - width * factor), 0.5 * (high - height * factor))

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from hlr.common.numbers import typed
 from hlr.common.types import Ints
 from hlr.drawing.notes import Note
 
@@ -57,7 +58,7 @@ class MeshingFaults:
         farthest = max(self.off, key=lambda number: self.off[number])
         places = ((name, np.flatnonzero(face_shape == farthest)) for name, face_shape in parts)
         name, face = next((name, int(found[0])) for name, found in places if len(found))
-        where, far = f'face {face} of part "{name}"', f"up to {self.off[farthest]:.2g} mm off"
+        where, far = f'face {face} of part "{name}"', f"up to {typed(self.off[farthest], 2)} mm off"
         if len(self.off) == 1:
             found = f"{where} lies {far} its own edges"
         else:
