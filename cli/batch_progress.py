@@ -12,6 +12,8 @@ import click
 
 from hlr.batch.run import source_size
 
+from .signals import Stopped
+
 if TYPE_CHECKING:
     from rich.live import Live
     from rich.table import Table
@@ -48,7 +50,10 @@ class Lines:
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None: ...
+    ) -> None:
+        """Of a run that is ended in the middle, say how far it has come."""
+        if kind is not None and issubclass(kind, Stopped) and self._ended < self._total and not self.quiet:
+            click.echo(f"stopped: {self._ended} of {self._total} sources are done; there is no new report", err=True)
 
 
 class Display(Lines):
@@ -91,6 +96,7 @@ class Display(Lines):
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._stop()
+        super().__exit__(kind, error, trace)
 
     def _stop(self) -> None:
         if self._live is not None:

@@ -277,6 +277,8 @@ def _round(plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, e
         click.echo(line)
     _add_to_summary(plan.output / "summary.md")
     if not show.quiet:
+        if kept.not_kept:
+            remark(f"the next run draws again what it should find in the cache: it cannot be kept ({kept.not_kept})")
         click.echo(_said(done, time.monotonic() - started), err=True)
         if changed is not None:
             click.echo(f"since {earlier.name}: {changed}", err=True)

@@ -15,7 +15,7 @@ from hlr.batch.job import Job, Outcome, failed
 from hlr.batch.pulled_in import references
 from hlr.batch.request import options_of
 from hlr.common.process import debugging
-from hlr.errors import HlrError
+from hlr.errors import HlrError, StrictError
 
 if TYPE_CHECKING:
     from hlr.common.types import Progress
@@ -32,6 +32,11 @@ def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
     started, before = perf_counter(), set(sys.modules)
     try:
         outcome = _drawn(job, progress)
+    except StrictError as error:
+        why = str(error).rstrip(".")
+        outcome = failed(
+            "StrictError", f"{job.source}: {why}; nothing is written, because warnings are errors (strict)."
+        )
     except HlrError as error:
         outcome = failed(type(error).__name__, str(error))
     except MemoryError:

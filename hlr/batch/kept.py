@@ -19,10 +19,15 @@ from hlr.cache.store import NotKeptError, Store
 
 
 class Kept:
-    """The outcomes that a folder keeps. store: None where nothing is to be kept."""
+    """The outcomes that a folder keeps.
+
+    store     None where nothing is to be kept
+    not_kept  why the last outcome that should have been kept was not, in a few words; empty: all were
+    """
 
     def __init__(self, store: Store | None, digests: Digests) -> None:
         self._store, self._digests = store, digests
+        self.not_kept = ""
 
     def find(self, job: Job) -> Outcome | None:
         """The outcome of a job that nothing has changed of since; None where there is none."""
@@ -63,8 +68,10 @@ class Kept:
             "seconds": outcome.seconds,
             "peak_memory_mb": outcome.peak_memory_mb,
         }
-        with suppress(NotKeptError):
+        try:
             self._store.write(key, packed(key, facts, [content for row in outcome.contents for content in row]))
+        except NotKeptError as error:
+            self.not_kept = str(error)
 
 
 def _newest(paths: Iterable[Path]) -> float:

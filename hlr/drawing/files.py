@@ -80,7 +80,7 @@ def write_all(files: Mapping[Path, bytes], folders: Iterable[Path] = ()) -> None
     path = Path()
     try:
         for path in folders:
-            path.mkdir(parents=True, exist_ok=True)
+            _make_folder(path)
         for path, data in files.items():
             there = check_writable(path)
             if there is not None and not stat.S_ISREG(there.st_mode):  # a pipe or a device has no content to protect
@@ -106,6 +106,15 @@ def write_all(files: Mapping[Path, bytes], folders: Iterable[Path] = ()) -> None
         for _, beside, _ in staged:
             with contextlib.suppress(OSError):
                 os.unlink(beside)
+
+
+def _make_folder(path: Path) -> None:
+    """Make a folder where there is none. Raises OSError; WriteError where something else has its name."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError):
+        other = next((each for each in (path, *path.parents) if each.exists()), path)
+        raise WriteError(f"cannot write into {path}: {other} is not a folder") from None
 
 
 def _write(file: RawIOBase, data: bytes) -> None:

@@ -108,7 +108,49 @@ def test_the_manifest_is_followed_and_what_is_wrong_refused(hlr_batch):
     # The folder itself may be a file.
     (hlr_batch.folder / "file").touch()
     refused = hlr_batch("-o", "file")
-    assert refused.returncode == 2 and "cannot write" in refused.stderr
+    path = hlr_batch.folder / "file"
+    assert refused.returncode == 2 and refused.stderr == f"hlr: cannot write into {path}: {path} is not a folder.\n"
+    assert hlr_batch("-o", "file/in").stderr == f"hlr: cannot write into {path}/in: {path} is not a folder.\n"
+
+
+@pytest.mark.slow
+def test_strict_names_the_source_and_why_nothing_is_written(hlr_batch):
+    (hlr_batch.folder / "ä ö.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    said = hlr_batch("--strict", "--view", "top").stderr.splitlines()[0]
+    assert said == (
+        '1/1 ä ö.off: failed: ä ö.off: Part "ä ö" is drawn as it is: open: 3 border edges; nothing is written, because '
+        "warnings are errors (strict)."
+    )
+    assert not list((hlr_batch.folder / "drawings").glob("*.svg"))
+
+
+@pytest.mark.slow
+def test_a_cache_that_cannot_be_written_is_told_once(hlr_batch, tmp_path):
+    (tmp_path / "file").touch()
+    for name in ("a.off", "b.off"):
+        tetrahedron(hlr_batch.folder / name)
+    for _ in range(2):
+        done = hlr_batch("--view", "top", HLR_CACHE=str(tmp_path / "file"))
+        assert done.returncode == 0 and "2 drawn, 0 unchanged, 0 failed" in done.stderr
+        assert [line for line in done.stderr.splitlines() if "note" in line] == [
+            "hlr: note: the next run draws again what it should find in the cache: it cannot be kept "
+            f"({tmp_path / 'file'}: file exists)."
+        ]
+    assert "note" not in hlr_batch("--view", "top", HLR_CACHE="off").stderr
+    assert hlr_batch("--view", "top", "-q", HLR_CACHE=str(tmp_path / "file")).stderr == ""
+
+
+@pytest.mark.slow
+def test_ctrl_c_says_how_far_it_has_come(hlr_batch):
+    tetrahedron(hlr_batch.folder / "a.off")
+    (hlr_batch.folder / "endless.py").write_text("while True: pass\n")
+    command = [sys.executable, "-P", "-m", "hlr", "batch", "a.off", "endless.py", "--view", "top", "-j", "2"]
+    process = subprocess.Popen(command, cwd=hlr_batch.folder, stderr=subprocess.PIPE, text=True)
+    assert process.stderr.readline().startswith("1/2 a.off: 1 view, ")
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=10) == -signal.SIGINT
+    assert process.stderr.read() == "stopped: 1 of 2 sources are done; there is no new report\n"
+    assert [path.name for path in (hlr_batch.folder / "drawings").iterdir()] == ["a-top.svg"]
 
 
 @pytest.mark.slow
