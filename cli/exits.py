@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import gc
 import os
+import re
 import signal
 import sys
 import warnings
@@ -13,7 +14,8 @@ from typing import NoReturn
 
 import click
 
-from hlr.errors import HlrError, KernelError
+from hlr.errors import HlrError, KernelError, StrictError
+from hlr.tables.entry import listed
 
 from . import guard, signals
 from .streams import ReaderGoneError, printing
@@ -46,7 +48,7 @@ def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoRet
         _refuse(str(error), "KernelError", FAULT)
     except HlrError as error:
         _debug()
-        _refuse(str(error), type(error).__name__)
+        _refuse(_message(error), type(error).__name__)
     except signals.Stopped as stopped:
         signals.die_by(stopped.number)
     except (KeyboardInterrupt, click.Abort):
@@ -146,7 +148,15 @@ def _say(text: str) -> None:
 def _sentence(message: str) -> str:
     """A message of click in our style: it begins with a small letter and has no full stop."""
     text = message.rstrip(".")
+    if near := re.fullmatch(r"(.*)\. \(?Did you mean (?:one of: )?(.*?)\?\)?", text):
+        text = f"{near[1]}: did you mean {listed(near[2].split(', '), 'or')}?"
     return text[:1].lower() + text[1:]
+
+
+def _message(error: HlrError) -> str:
+    """What an error says. Where a warning is one, the pipeline says no more than the warning: the reason is added."""
+    text, reason = str(error), "nothing is written, because of --strict"
+    return text if not isinstance(error, StrictError) or reason in text else f"{text.rstrip('.')}; {reason}"
 
 
 def _full(message: str) -> str:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from hlr.common.numbers import typed
 from hlr.tables.readers import Reader
 
 READS = ("", "source")
@@ -63,4 +64,6 @@ def given_up(
 
 
 def _told(seconds: float) -> str:
+    if seconds < 0.95:
+        return f"{typed(seconds, 1)} s"
     return f"{seconds:.0f} s" if seconds >= 9.95 else f"{seconds:.1f} s"

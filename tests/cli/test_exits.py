@@ -45,8 +45,37 @@ def test_out_of_memory_is_said(hlr_command):
 def test_an_unknown_verb(hlr_command):
     result = hlr_command("drow")
     assert result.code == 2
-    assert result.err.startswith("hlr: no such command 'drow'")
-    assert result.err.endswith("(see hlr --help).\n")
+    assert result.err == "hlr: no such command 'drow': did you mean draw? (see hlr --help).\n"
+    assert hlr_command("xyz").err == "hlr: no such command 'xyz' (see hlr --help).\n"
+
+
+@pytest.mark.parametrize(
+    ("said", "sentence"),
+    [
+        ("No such option '--scal'. Did you mean '--scale'?", "no such option '--scal': did you mean '--scale'?"),
+        ("No such command 'clea'. (Did you mean 'clear'?)", "no such command 'clea': did you mean 'clear'?"),
+        (
+            "No such option '--fil'. (Did you mean one of: '--fill', '--fit', '--fov'?)",
+            "no such option '--fil': did you mean '--fill', '--fit' or '--fov'?",
+        ),
+        ("No such option '--xyz'.", "no such option '--xyz'"),
+    ],
+)
+def test_an_unknown_option_is_told_in_one_sentence(said, sentence):
+    from hlr.cli.exits import _sentence
+
+    assert _sentence(said) == sentence
+
+
+@pytest.mark.parametrize("verb", ["draw", "preview"])
+def test_strict_says_why_nothing_is_there(hlr_real, tmp_path, verb):
+    (tmp_path / "part.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    result = hlr_real(verb, "part.off", "--strict")
+    assert (result.code, result.out) == (2, "")
+    assert result.err == (
+        'hlr: Part "part" is drawn as it is: open: 3 border edges; nothing is written, because of --strict.\n'
+    )
+    assert [path.name for path in tmp_path.iterdir()] == ["part.off"]
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["-h"], ["draw", "--help"], ["info", "-h"], ["--version"]])

@@ -34,6 +34,10 @@ def test_what_took_the_time_is_said_and_what_helps():
     assert sentence("FreeCAD").endswith("raise --time-limit, or take its coarse view (--coarse)")
     assert sentence("depth sort").endswith("the work took 41 s of that: raise --time-limit")
     assert len({sentence(stage) for stage in STAGES}) == len(STAGES)
+    told = [
+        given_up("a.x", STEP, 0.01, ("source", seconds), "--time-limit", "") for seconds in (0.0123, 0.57, 9.94, 9.96)
+    ]
+    assert [re.search(r"took (\S+) s of", each)[1] for each in told] == ["0.01", "0.6", "9.9", "10"]
 
 
 def test_the_longest_stage_is_told(monkeypatch):
