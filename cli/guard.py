@@ -74,7 +74,7 @@ def start(source: str, limit_s: float | None = None, coarser: str = "ask for a l
     ends the worker itself; coarser: what helps then where accuracy took the time; empty: nothing.
     Raises OptionError where there is a limit, and can be no worker.
     """
-    if not _Worker.allowed or threading.active_count() > 1:
+    if not possible():
         if limit_s is not None:
             raise OptionError("--time-limit needs a process that hlr can end, and there is none here: leave it out")
         return
@@ -101,6 +101,11 @@ def start(source: str, limit_s: float | None = None, coarser: str = "ask for a l
     tie_to(own)
     claim()
     without_core_files()
+
+
+def possible() -> bool:
+    """Whether this process may have a worker."""
+    return _Worker.allowed and threading.active_count() == 1
 
 
 def note(what: str) -> None:

@@ -10,7 +10,7 @@ import click
 from hlr.errors import OptionError
 from hlr.tables.readers import is_model, of_ending
 
-from ..guard import start
+from ..guard import possible, start
 from ..meter import meter
 from ..outputs import Target, check, place
 from ..parameters import Scale, ViewName
@@ -140,7 +140,9 @@ def compare(  # noqa: PLR0913 - one for each option of the command
             "--fail-on ours asks rays on a model which drawing is right: name one model, and a drawing of it"
         )
     if models or time_limit is not None:
-        start(_blamed(models or sides), time_limit, coarser="ask for a larger --tolerance")
+        # Without a worker, FreeCAD's own process can be ended all the same.
+        of_all = time_limit if possible() or against is None else None
+        start(_blamed(models or sides), of_all, coarser="ask for a larger --tolerance")
     with result_only() as out:
         with meter(quiet) as progress:
             more: dict[str, Any] = {"tolerance_mm": tolerance, "scale": scale, "progress": progress, **choice}

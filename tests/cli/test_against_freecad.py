@@ -76,6 +76,14 @@ def test_a_time_limit_holds_for_freecad_as_well(endless, tmp_path):
     assert list((tmp_path / "made").iterdir()) == []
 
 
+def test_without_a_worker_the_limit_is_that_of_freecad(endless, hlr_real, monkeypatch):
+    for name in ("HLR_FREECAD", "TMPDIR", "HLR_CACHE"):
+        monkeypatch.setenv(name, endless[name])
+    result = hlr_real(*COMPARE[4:], "--time-limit", "0.5s")
+    assert (result.code, result.out) == (2, "")
+    assert result.err.startswith("hlr: FreeCAD did not draw M6-1x12-countersunk-screw.step in 0.5 s: give it more time")
+
+
 @needs_freecad
 @pytest.mark.slow
 def test_both_are_compared(hlr_real, tmp_path):
