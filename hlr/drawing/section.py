@@ -9,10 +9,10 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """The plane of a section. Model coordinates.
+    """The plane of a section.
 
-    point   on the plane
-    normal  of length 1, toward the viewer: what lay on its side was taken away
+    point   on the plane, in model coordinates
+    normal  a direction in the model, of length 1, toward the viewer: what lay on its side was taken away
     parts   those that the plane cuts, whose cut faces are hatched: indices into Drawing.parts
 
     >>> import hlr

@@ -31,12 +31,12 @@ LETTERS = "ABCDEFGHJKLMNPRSTUVWXYZ"
 
 @dataclass(frozen=True, slots=True)
 class SectionMark:
-    """The marks of one section. Millimetres from the lower left corner of the page.
+    """The marks of one section on a page.
 
     letter  A for the section A-A
-    name    the middle of that name, above the view
-    line    the cutting line, from end to end; None where no view sees the plane from its edge
-    back    from the line to the viewer of the section, of length one
+    name    the middle of that name, above the view: millimetres from the lower left corner of the page
+    line    the cutting line, from end to end, in the same millimetres; None where no view sees the plane from its edge
+    back    the direction on the page from the line to the viewer of the section, of length 1
     """
 
     letter: str
