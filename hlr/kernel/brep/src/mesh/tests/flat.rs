@@ -188,7 +188,7 @@ fn holes_around_a_corner() {
             let sides: Vec<usize> =
                 sides[turned..].iter().copied().chain(sides[..turned].iter().map(|d| d + 16)).collect();
             let hole = |ends: &[usize]| {
-                let rim = (ends[0]..=ends[1]).rev().map(|direction| place(direction));
+                let rim = (ends[0]..=ends[1]).rev().map(place);
                 [[0.0; 2]].into_iter().chain(rim).collect::<Vec<_>>()
             };
             let outer = frame([-10.0, -10.0], [20.0, 20.0], 1, 1);
