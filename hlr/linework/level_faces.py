@@ -41,7 +41,7 @@ def with_level_faces(
         flat = part.triangles[on[part.triangles].all(axis=1)]
         a, b, c = part.points[flat].transpose(1, 0, 2)
         if (np.cross(b - a, c - a) @ normal > 0.0).any():
-            own = [other for other in parts if other is part or leaf.get(other.name) == leaf.get(part.name, -1)]
+            own = [other for other in parts if leaf.get(other.name, other.name) == leaf.get(part.name, part.name)]
             found[part.name] = _joined(own)
     return found
 
