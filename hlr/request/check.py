@@ -70,14 +70,14 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
         for name in ("perspective", "report"):
             if options.section is not None and getattr(options, name):
                 raise OptionError(f"a section has no {name}: leave out {name}, or section")
-    elif options.uncut:
-        raise OptionError("uncut is for parts of a section: give section as well, or leave it out")
     if options.window is not None:
         _window(options.window)
     for name in ("only", "hide", "uncut"):
         patterns = getattr(options, name)
         if isinstance(patterns, str) or not _is_strings(patterns):
             raise OptionError(f"{name} needs a list of names or patterns of parts, not {patterns!r}")
+    if options.section is None and len(options.uncut) > 0:
+        raise OptionError("uncut is for parts of a section: give section as well, or leave it out")
     if options.var is not None and not isinstance(options.var, str):
         raise OptionError(f"var needs the name of a variable, not {options.var!r}")
     if options.parameters is not None:

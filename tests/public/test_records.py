@@ -14,7 +14,7 @@ import pytest
 
 import hlr
 
-API = (Path(hlr.__file__).parent / "docs" / "api.md").read_text("utf-8")
+API = (Path(__file__).parents[2] / "hlr" / "docs" / "api.md").read_text("utf-8")
 SHOWN = set(re.findall(r"autoclass:: ([\w.]+)", API))
 
 UNITS = re.compile(
