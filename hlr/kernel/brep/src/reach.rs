@@ -49,14 +49,28 @@ fn add_pieces(spline: &SplineSurface, ranges: [Range; 2], place: &Matrix, found:
         return add_spline(spline, ranges, place, found);
     }
     let net = ControlNet::of_spline(spline);
-    let [us, vs] = [0, 1].map(|k| {
-        let [first, last] = spline.within(k, ranges[k]);
-        let at = move |i: usize| first + (last - first) * (i as f64 / pieces[k] as f64);
-        (0..pieces[k]).map(move |i| [at(i), at(i + 1)])
-    });
-    for u in us {
-        for v in vs.clone() {
-            (0..2).for_each(|k| add_range(k, net.range(&place[k], [u, v]), found));
+    let ends = [0, 1].map(|k| spline.within(k, ranges[k]));
+    let at = |k: usize, i: usize| ends[k][0] + (ends[k][1] - ends[k][0]) * (i as f64 / pieces[k] as f64);
+    for k in 0..2 {
+        // A block of pieces encloses what each of them does: most blocks need no closer look.
+        let mut blocks = vec![[[0, pieces[0]], [0, pieces[1]]]];
+        while let Some(block) = blocks.pop() {
+            let range = net.range(&place[k], [0, 1].map(|side| block[side].map(|i| at(side, i))));
+            if found[0][k] <= range[0] && range[1] <= found[1][k] {
+                continue;
+            }
+            let sizes = block.map(|[first, end]| end - first);
+            let side = usize::from(sizes[1] > sizes[0]);
+            if sizes[side] == 1 {
+                add_range(k, range, found);
+                continue;
+            }
+            let [first, end] = block[side];
+            for half in [[first, usize::midpoint(first, end)], [usize::midpoint(first, end), end]] {
+                let mut part = block;
+                part[side] = half;
+                blocks.push(part);
+            }
         }
     }
     // No depth: as everything in this view.
