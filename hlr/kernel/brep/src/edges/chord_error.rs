@@ -79,6 +79,7 @@ fn blossom(n: &Nurbs, span: usize, low: f64, high: f64, j: usize) -> [f64; 4] {
     match n.degree {
         0..=3 => polar::<4>(n, span, low, high, j),
         4..=7 => polar::<8>(n, span, low, high, j),
+        8..=11 => polar::<12>(n, span, low, high, j),
         _ => polar::<{ MOST_DEGREE + 1 }>(n, span, low, high, j),
     }
 }

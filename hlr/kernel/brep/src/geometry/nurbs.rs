@@ -89,6 +89,7 @@ impl Nurbs {
         match self.degree {
             0..=3 => self.by_basis::<4>(t),
             4..=7 => self.by_basis::<8>(t),
+            8..=11 => self.by_basis::<12>(t),
             _ => self.by_basis::<{ MOST_DEGREE + 1 }>(t),
         }
     }
@@ -98,6 +99,7 @@ impl Nurbs {
         match self.degree {
             0..=3 => self.by_values::<4>(t),
             4..=7 => self.by_values::<8>(t),
+            8..=11 => self.by_values::<12>(t),
             _ => self.by_values::<{ MOST_DEGREE + 1 }>(t),
         }
     }

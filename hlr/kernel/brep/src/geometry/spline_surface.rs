@@ -2,7 +2,7 @@
 //!
 //! L. Piegl, W. Tiller, "The NURBS Book", 2nd ed. 1997: A3.6 and A4.4 (surface points and derivatives).
 
-use super::basis::Basis;
+use super::basis::{Basis, values};
 use super::jet::Jet;
 use super::nurbs::used_poles;
 use super::spans::{Slopes, Spans};
@@ -95,11 +95,11 @@ impl SplineSurface {
     }
 
     pub fn point(&self, u: f64, v: f64) -> Vector {
-        let (Some(a), Some(b)) = (&self.spans[0], &self.spans[1]) else { return self.d1(u, v).0 };
-        let (u, v) = (self.inside(0, u), self.inside(1, v));
         match self.degree[0].max(self.degree[1]) {
-            0..=3 => self.sum::<4>(a.values(u), b.values(v)),
-            _ => self.sum::<8>(a.values(u), b.values(v)),
+            0..=3 => self.sum::<4>(self.values(0, u), self.values(1, v)),
+            4..=7 => self.sum::<8>(self.values(0, u), self.values(1, v)),
+            8..=11 => self.sum::<12>(self.values(0, u), self.values(1, v)),
+            _ => self.sum::<{ MAX_DEGREE + 1 }>(self.values(0, u), self.values(1, v)),
         }
     }
 
@@ -126,6 +126,7 @@ impl SplineSurface {
         match self.degree[0].max(self.degree[1]) {
             0..=3 => self.first_derivatives::<4>(u, v),
             4..=7 => self.first_derivatives::<8>(u, v),
+            8..=11 => self.first_derivatives::<12>(u, v),
             _ => self.first_derivatives::<{ MAX_DEGREE + 1 }>(u, v),
         }
     }
@@ -135,6 +136,7 @@ impl SplineSurface {
         match self.degree[0].max(self.degree[1]) {
             0..=3 => self.second_derivatives::<4>(u, v),
             4..=7 => self.second_derivatives::<8>(u, v),
+            8..=11 => self.second_derivatives::<12>(u, v),
             _ => self.second_derivatives::<{ MAX_DEGREE + 1 }>(u, v),
         }
     }
@@ -241,6 +243,14 @@ impl SplineSurface {
     fn inside(&self, side: usize, x: f64) -> f64 {
         let (_, [low, high], period) = self.knots(side);
         if period > 0.0 && !(low..=high).contains(&x) { low + (x - low).rem_euclid(period) } else { x }
+    }
+
+    fn values<const N: usize>(&self, side: usize, x: f64) -> (usize, [f64; N]) {
+        let x = self.inside(side, x);
+        match &self.spans[side] {
+            Some(spans) => spans.values(x),
+            None => values(&self.knots[side], self.degree[side], self.count[side], x),
+        }
     }
 
     fn slopes<const N: usize>(&self, side: usize, x: f64) -> Slopes<N> {

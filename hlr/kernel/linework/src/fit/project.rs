@@ -83,6 +83,7 @@ impl Paper {
             }
             Paper::Spline { degree: degree @ 0..=3, knots, poles, .. } => on_spline::<4>(*degree, knots, poles, t),
             Paper::Spline { degree: degree @ 4..=7, knots, poles, .. } => on_spline::<8>(*degree, knots, poles, t),
+            Paper::Spline { degree: degree @ 8..=11, knots, poles, .. } => on_spline::<12>(*degree, knots, poles, t),
             Paper::Spline { degree, knots, poles, .. } => on_spline::<{ MOST_DEGREE + 1 }>(*degree, knots, poles, t),
         }
     }
