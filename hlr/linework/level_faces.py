@@ -6,8 +6,7 @@ was.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable
 
 import numpy as np
 import numpy.typing as npt
@@ -24,14 +23,10 @@ PAIRS = 2_000_000
 """Points times triangles that are looked at together: bounds the memory."""
 
 
-def with_level_faces(
-    parts: Sequence[PartMesh], origin: Floats, normal: Floats, near: float, leaf: Mapping[str, int]
-) -> dict[str, PartMesh]:
+def with_level_faces(parts: Iterable[PartMesh], origin: Floats, normal: Floats, near: float) -> dict[str, PartMesh]:
     """Those of the parts of a whole model that have a face on a plane which looks to where its normal points, by name.
 
-    Solids of one shape, as the turns of a thread, are one material: each comes with the triangles of all of them.
-
-    origin, normal (3,): of the plane, the normal of length 1; near: model units; leaf: the number of each part's leaf
+    origin, normal (3,): of the plane, the normal of length 1; near: model units
     """
     found = {}
     for part in parts:
@@ -41,19 +36,8 @@ def with_level_faces(
         flat = part.triangles[on[part.triangles].all(axis=1)]
         a, b, c = part.points[flat].transpose(1, 0, 2)
         if (np.cross(b - a, c - a) @ normal > 0.0).any():
-            own = [other for other in parts if leaf.get(other.name, other.name) == leaf.get(part.name, part.name)]
-            found[part.name] = _joined(own)
+            found[part.name] = part
     return found
-
-
-def _joined(parts: Sequence[PartMesh]) -> PartMesh:
-    """One mesh of the triangles of all parts."""
-    if len(parts) == 1:
-        return parts[0]
-    first = np.cumsum([0] + [len(part.points) for part in parts[:-1]])
-    triangles = [part.triangles + offset for part, offset in zip(parts, first, strict=True)]
-    points = np.concatenate([part.points for part in parts])
-    return replace(parts[0], points=points, triangles=np.concatenate(triangles).astype(np.int32))
 
 
 def cut_ones(part: PartMesh, flat: Ints, face: Ints, whole: PartMesh, normal: Floats, near: float) -> Booleans:

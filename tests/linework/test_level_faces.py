@@ -51,5 +51,5 @@ def test_the_larger_share_decides_for_a_face_of_a_brep():
 
 def test_parts_with_a_face_in_the_plane_that_looks_to_the_viewer_are_found():
     parts = [box(0, 5, -3, 0, "below"), box(0, 5, 0, 3, "above"), box(0, 5, -3, 3, "through")]
-    assert list(with_level_faces(parts, np.zeros(3), UP, 1e-9, {})) == ["below"]
-    assert list(with_level_faces(parts, np.zeros(3), -UP, 1e-9, {})) == ["above"]
+    assert list(with_level_faces(parts, np.zeros(3), UP, 1e-9)) == ["below"]
+    assert list(with_level_faces(parts, np.zeros(3), -UP, 1e-9)) == ["above"]

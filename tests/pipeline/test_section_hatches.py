@@ -30,18 +30,6 @@ def test_the_floor_of_a_pocket_that_lies_in_the_plane_is_seen_and_not_hatched(ma
     assert hatched_area(behind, 3.0) == pytest.approx(60 * 40, rel=0.03)
 
 
-@pytest.mark.parametrize("one", [True, False])
-def test_solids_of_one_part_that_meet_in_the_plane_are_hatched_there(one):
-    """Turns of a thread end where they began. Of two parts that touch, neither is cut by a plane between them."""
-    halves = [cq.Workplane().box(20, 10, 8).translate((0, y, 0)) for y in (-5, 5)]
-    model = cq.Compound.makeCompound([half.val() for half in halves]) if one else cq.Assembly()
-    for half in [] if one else halves:
-        model.add(half)
-    drawing = section(model, "front", 0)
-    assert bool(drawing.section.parts) == one
-    assert hatched_area(drawing, 1.5) == pytest.approx(20 * 8 if one else 0, rel=0.05)
-
-
 def test_the_floor_of_a_round_pocket_in_a_round_body_is_not_hatched():
     body = cq.Workplane("XZ").circle(20).extrude(-30).faces("<Y").workplane().hole(16, 15)
     assert hatched_area(section(body), 3.0) == pytest.approx(np.pi * (20**2 - 8**2), rel=0.04)

@@ -32,7 +32,7 @@ def with_hatches(drawing: Drawing, session: Session, plane: Plane, cut: CutSourc
             plane.near,
             lambda name: plane.level.get(cut.whose[name]),
         )
-        if cut.whose[face.part] in cut.cut or (cut.whose[face.part] in plane.level.keys() - cut.through)
+        if cut.whose[face.part] in cut.cut
     ]
     paper = _Paper(drawing)
     flat = [[paper.on(border) for border in face.borders] for face in faces]

@@ -17,7 +17,6 @@ from hlr.request.accuracy import ANGLE, SMALL_DRAWING
 from hlr.request.directions import directed
 from hlr.request.options import Options, SectionPlace, Vector, View
 from hlr.request.section import axis_of
-from hlr.source.cad.brep_source import BrepSource
 from hlr.source.model import PartMesh, Source
 from hlr.tables.readers import is_brep
 
@@ -64,8 +63,7 @@ def plane_of(place: SectionPlace, view: View, source: Source, options: Options) 
     middle = 0.5 * (bounds[0] + bounds[1])
     on = given if isinstance(place, tuple) else middle + (at - float(middle @ normal)) * normal
     x, y, z = (np.asarray(on) + 0.0).tolist()
-    leaf = {part.name: part.leaf for part in source.parts} if isinstance(source, BrepSource) else {}
-    level = with_level_faces(meshed, np.array([x, y, z]), normal, near, leaf)
+    level = with_level_faces(meshed, np.array([x, y, z]), normal, near)
     return Plane((x, y, z), camera.direction, near, bool(at >= high - near), level)
 
 

@@ -86,7 +86,7 @@ def to_entry(source: BrepSource) -> tuple[dict[str, Any], list[bytes]]:
         "faces": len(painted),
         "notes": [[note.code, note.text] for note in source.notes],
         "parts": [
-            [part.name, part.product, part.color, part.prototype, part.transparent, look.whole, part.above, part.leaf]
+            [part.name, part.product, part.color, part.prototype, part.transparent, look.whole, part.above]
             for part, look in zip(source.parts, looks, strict=True)
         ],
     }
@@ -142,7 +142,7 @@ def _checked_source(name: str, kind: str, facts: dict[str, Any], data: memoryvie
     _require(prototypes.model.faces_of_parts == counts[:, 0].tolist() and bool((counts >= 0).all()))
 
     def part(number: int) -> Part:
-        own, product, color, prototype, transparent, whole, above, leaf = parts[number]
+        own, product, color, prototype, transparent, whole, above = parts[number]
         _require(isinstance(above, list) and all(isinstance(text, str) for text in (own, product, *above)))
         _require(isinstance(transparent, bool))
         _require(0 <= _index(prototype) < n_prototypes)
@@ -152,9 +152,10 @@ def _checked_source(name: str, kind: str, facts: dict[str, Any], data: memoryvie
         _require(all(0 <= face < counts[prototype, 0] for face in numbers))
         rgba: list[Rgba] = [(r, g, b, a) for r, g, b, a in colors[mine].tolist()]
         look = Appearance(_numbers(whole, 4), dict(zip(numbers, rgba, strict=True)))
-        color, place = _numbers(color, 3), transforms[number]
-        made = Part(own, product, color, prototype, place, transparent, Appearance, tuple(above), _index(leaf))
-        return with_appearance(made, look)
+        found = Part(
+            own, product, _numbers(color, 3), prototype, transforms[number], transparent, Appearance, tuple(above)
+        )
+        return with_appearance(found, look)
 
     _require(all(code in CODES and isinstance(text, str) for code, text in facts["notes"]))
     notes = [Note(code, text) for code, text in facts["notes"]]

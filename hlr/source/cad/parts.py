@@ -44,7 +44,6 @@ class Part:
     transparent  some of it may be transparent
     appearance   returns its colours; they are gathered only when asked for
     above        as of its leaf
-    leaf         number of its leaf: solids of one have the same
     """
 
     name: str
@@ -55,7 +54,6 @@ class Part:
     transparent: bool
     appearance: Callable[[], Appearance]
     above: tuple[str, ...] = ()
-    leaf: int = 0
 
 
 class PartCollector:
@@ -89,7 +87,6 @@ class PartCollector:
         for key, leaf in instances:
             placed += self._placed(leaf, pieces[key])
         transforms = matrices4([place for *_, place in placed])
-        numbers = {id(leaf): number for number, (_, leaf) in enumerate(instances)}
         self.parts = [
             Part(
                 name=name,
@@ -100,7 +97,6 @@ class PartCollector:
                 transparent=leaf.opacity < 1.0 or bool(leaf.opacities),
                 appearance=partial(_appearance, leaf, piece.shape, shapes),
                 above=leaf.above,
-                leaf=numbers[id(leaf)],
             )
             for (leaf, name, piece, _), transform in zip(placed, transforms, strict=True)
         ]
