@@ -178,3 +178,11 @@ def test_a_mesh_of_any_size_is_cut(size):
     alone = hlr.draw((points, triangles), "front", section=True)
     assert len(hatch_of(drawing)) == pytest.approx(len(hatch_of(alone)), rel=0.6)
     assert any(len(line.points) > 2 for line in drawing.lines)
+
+
+def test_a_part_whose_box_alone_is_cut_is_not_said_to_have_no_hatch():
+    """The box of the ball reaches before the oblique plane, the ball does not."""
+    ball = cq.Workplane().sphere(10)
+    drawing = section([cq.Workplane().box(40, 40, 40).translate((30, -30, 0)), ball], (1, 1, 0), (8.5, 8.5, 0))
+    assert drawing.section.parts == (0,)
+    assert [note for note in drawing.notes if note.code == "section-not-hatched"] == []

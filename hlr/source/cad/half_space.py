@@ -10,13 +10,17 @@ import numpy as np
 
 from hlr.common.types import Floats
 from hlr.errors import SourceError
+from hlr.source.cad.cut_check import CutCheck
 from hlr.source.cad.occt_collections import new_collection
 from hlr.source.cad.part_shapes import OcctShapes
 from hlr.source.cad.parts import Leaf
-from hlr.source.cad.shapes import make_compound
+from hlr.source.cad.shapes import make_compound, sub_shapes
 
 NEAR = 1e-9
 """Of the size of a shape: a plane that comes no deeper into it than this only touches it."""
+
+LOOSER = (1e-8, 1e-7, 1e-6)
+"""Of the size of a shape: how much looser it is cut again where it was not cut as it should."""
 
 
 def cut_away(leaves: Sequence[Leaf], origin: Floats, normal: Floats) -> list[Leaf]:
@@ -42,52 +46,78 @@ def cut_away(leaves: Sequence[Leaf], origin: Floats, normal: Floats) -> list[Lea
 
 def _cut(shape: Any, origin: Floats, normal: Floats, name: str) -> Any | None:
     """A shape without what lies beyond the plane; None where that is all of it."""
-    corners = _corners(shape)
-    if corners is None:
+    box = _box(shape, origin, normal)
+    if box is None:
         return None
-    size = float(np.linalg.norm(corners.max(axis=0) - corners.min(axis=0)))
-    heights, near = (corners - origin) @ normal, NEAR * size
-    if heights.max() <= near:
+    size = float(np.linalg.norm(box[1] - box[0]))
+    low, high = box[:, 2]
+    if high <= NEAR * size:
         return shape
-    if heights.min() >= -near:
+    if low >= -NEAR * size:
         return None
-    middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
-    foot = middle - float((middle - origin) @ normal) * normal
-    return _without(shape, _block(foot, normal, 2.0 * size), name)
+    block = _block(origin, normal, 0.5 * (box[0] + box[1]), 2.0 * size)
+    check = CutCheck(shape, origin, normal, size)
+    found: list[Any | None] = []
+    for share in (0.0, *LOOSER):
+        left = _without(shape, block, share * size)
+        if left is _FAILED or not check.is_cut(left, left is shape):
+            continue
+        if check.is_sound(left):
+            return left
+        found.append(left)
+    if not found:
+        why = "its shape is not sound: move the plane a little, or leave the part out"
+        raise SourceError(f'"{name}" cannot be cut by the plane of a section, because {why}.')
+    return found[0]
 
 
-def _corners(shape: Any) -> Floats | None:
-    """(8, 3) the corners of a box around a shape; None where it has no geometry."""
+def _box(shape: Any, origin: Floats, normal: Floats) -> Floats | None:
+    """(2, 3) the lower and the upper corner of a box around a shape, whose third axis goes from the plane along its
+    normal, and whose others are those of `_block`; None where it has no geometry."""
     from OCP.Bnd import Bnd_Box
     from OCP.BRepBndLib import BRepBndLib
+    from OCP.gp import gp_Ax3, gp_Trsf
+    from OCP.TopLoc import TopLoc_Location
 
+    move = gp_Trsf()
+    move.SetTransformation(gp_Ax3(_axes(origin, normal)))
+    turned = shape.Moved(TopLoc_Location(move), False)
     box = Bnd_Box()
-    BRepBndLib.AddOptimal_s(shape, box, False, False)
+    BRepBndLib.AddOptimal_s(turned, box, False, False)
     if box.IsVoid():  # of some shapes that are not sound it finds no extent
-        BRepBndLib.Add_s(shape, box, False)
-    if box.IsVoid():
-        return None
-    x0, y0, z0, x1, y1, z1 = box.Get()
-    return np.array([(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)])
+        BRepBndLib.Add_s(turned, box, False)
+    return None if box.IsVoid() else np.array(box.Get()).reshape(2, 3)
 
 
-def _block(foot: Floats, normal: Floats, size: float) -> Any:
-    """A box that stands on the plane, its middle over `foot`, 2 `size` wide and `size` high."""
-    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox
+def _axes(origin: Floats, normal: Floats) -> Any:
     from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
 
-    axes = gp_Ax2(gp_Pnt(*foot.tolist()), gp_Dir(*normal.tolist()))
+    return gp_Ax2(gp_Pnt(*origin.tolist()), gp_Dir(*normal.tolist()))
+
+
+def _block(origin: Floats, normal: Floats, middle: Floats, size: float) -> Any:
+    """A box that stands on the plane, 2 `size` wide and `size` high, over the middle (3,) of a box of `_box`."""
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox
+    from OCP.gp import gp_Pnt
+
+    axes = _axes(origin, normal)
     x, y = (np.array([way.X(), way.Y(), way.Z()]) for way in (axes.XDirection(), axes.YDirection()))
-    axes.SetLocation(gp_Pnt(*(foot - size * x - size * y).tolist()))
+    corner = origin + (middle[0] - size) * x + (middle[1] - size) * y
+    axes.SetLocation(gp_Pnt(*corner.tolist()))
     return BRepPrimAPI_MakeBox(axes, 2.0 * size, 2.0 * size, size).Shape()
 
 
-def _without(shape: Any, block: Any, name: str) -> Any | None:
-    """The shape minus the block; None where nothing is left."""
+_FAILED = object()
+"""What is left where OpenCASCADE finds no answer."""
+
+
+def _without(shape: Any, block: Any, near: float) -> Any | None:
+    """The shape minus the block: itself where no face or edge of it is cut or taken away, None where nothing is left.
+
+    near: what lies so close together counts as one, besides the tolerances of the shape
+    """
     from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
-
-    from hlr.source.cad.shapes import sub_shapes
 
     cut = BRepAlgoAPI_Cut()
     for setter, one in ((cut.SetArguments, shape), (cut.SetTools, block)):
@@ -95,10 +125,15 @@ def _without(shape: Any, block: Any, name: str) -> Any | None:
         several.Append(one)
         setter(several)
     cut.SetNonDestructive(True)
+    if near > 0.0:
+        cut.SetFuzzyValue(near)
     # OpenCASCADE's exceptions derive from Exception alone.
     with suppress(Exception):
         cut.Build()
     if not cut.IsDone():
-        raise SourceError(f'"{name}" cannot be cut by the plane of a section: its shape is not sound.')
+        return _FAILED
     left = cut.Shape()
+    kept = [each for kind in (Kind.TopAbs_FACE, Kind.TopAbs_EDGE) for each in sub_shapes(shape, kind)]
+    if not any(cut.IsDeleted(each) or cut.Modified(each).Size() for each in kept):
+        return shape
     return left if any(sub_shapes(left, kind) for kind in (Kind.TopAbs_FACE, Kind.TopAbs_EDGE)) else None
