@@ -8,8 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from hlr.common.types import Floats, Ints
-from hlr.linework.level_faces import cut_ones
+from hlr.linework.level_faces import Booleans, cut_ones
 from hlr.source.model import PartMesh
+
+Whole = Callable[[str], PartMesh | None]
+"""Of the name of a part: that part before it was cut."""
 
 NEAR = 1e-7
 """Of the size of a model: faces that lie so close to the plane of a section lie on it."""
@@ -48,11 +51,7 @@ def nearness(bounds: Floats, brep: bool = True) -> float:
 
 
 def cut_faces(
-    parts: Iterable[PartMesh],
-    origin: Floats,
-    normal: Floats,
-    near: float,
-    whole: Callable[[str], PartMesh | None] = lambda _: None,
+    parts: Iterable[PartMesh], origin: Floats, normal: Floats, near: float, whole: Whole = lambda _: None
 ) -> Iterator[CutFace]:
     """The faces on a plane that look to where its normal points.
 
@@ -60,18 +59,39 @@ def cut_faces(
     part before it was cut, where it had faces on the plane then, which are no cut faces
     """
     for part in parts:
-        on = np.abs((part.points - origin) @ normal) <= near
-        flat = np.asarray(on[part.triangles].all(axis=1), np.bool_)
-        level, before = part.triangles[:0], whole(part.name) if flat.any() else None
-        if before is not None:
-            numbers = np.flatnonzero(flat)
-            cut = cut_ones(part, part.triangles[numbers], part.triangle_face[numbers], before, normal, near)
-            level, flat = part.triangles[numbers[~cut]], np.isin(np.arange(len(flat)), numbers[cut])
-        for face in np.flatnonzero(np.bincount(part.triangle_face[flat], minlength=len(part.face_planar))).tolist():
-            own = part.triangles[flat & (part.triangle_face == face)]
-            a, b, c = part.points[own].transpose(1, 0, 2)
-            if np.cross(b - a, c - a).sum(axis=0) @ normal > 0.0:
-                yield CutFace(part.name, face, part.points, _loops(own), _rims(own, level))
+        cut, level = _on_plane(part, origin, normal, near, whole)
+        yield from _faces(part, cut, part.triangles[level], normal)
+
+
+def level_faces(
+    parts: Iterable[PartMesh], origin: Floats, normal: Floats, near: float, whole: Whole
+) -> Iterator[CutFace]:
+    """The faces on a plane that look to where its normal points and lay there before the model was cut.
+
+    They have no rims. Arguments as of `cut_faces`.
+    """
+    for part in parts:
+        yield from _faces(part, _on_plane(part, origin, normal, near, whole)[1], part.triangles[:0], normal)
+
+
+def _on_plane(part: PartMesh, origin: Floats, normal: Floats, near: float, whole: Whole) -> tuple[Booleans, Booleans]:
+    """Which triangles of a part are of cut faces, and which lay on the plane before."""
+    on = np.abs((part.points - origin) @ normal) <= near
+    cut = np.asarray(on[part.triangles].all(axis=1), np.bool_)
+    level, before = np.zeros(len(cut), np.bool_), whole(part.name) if cut.any() else None
+    if before is not None:
+        numbers = np.flatnonzero(cut)
+        level[numbers] = ~cut_ones(part, part.triangles[numbers], part.triangle_face[numbers], before, normal, near)
+    return cut & ~level, level
+
+
+def _faces(part: PartMesh, chosen: Booleans, others: Ints, normal: Floats) -> Iterator[CutFace]:
+    """The faces of chosen triangles that look to where the normal points; others (m, 3): triangles beside them."""
+    for face in np.flatnonzero(np.bincount(part.triangle_face[chosen], minlength=len(part.face_planar))).tolist():
+        own = part.triangles[chosen & (part.triangle_face == face)]
+        a, b, c = part.points[own].transpose(1, 0, 2)
+        if np.cross(b - a, c - a).sum(axis=0) @ normal > 0.0:
+            yield CutFace(part.name, face, part.points, _loops(own), _rims(own, others))
 
 
 def _loops(triangles: Ints) -> list[Ints]:

@@ -73,7 +73,7 @@ def patterns_of(parts: Mapping[str, Sequence[Floats]], paper: float) -> dict[str
     # The large faces come first: they have the usual lines.
     order = sorted(parts, key=lambda name: (-areas[name], name))
     boxes = np.array([_box(parts[name]) for name in order]).reshape(-1, 2, 2)
-    sides = [_sides(parts[name]) for name in order]
+    sides = [sides_of(parts[name]) for name in order]
     found: list[Pattern] = []
     for k, name in enumerate(order):
         near = [found[other] for other in _meeting(boxes, k) if _touch(boxes[k], boxes[other], sides[k], sides[other])]
@@ -90,7 +90,7 @@ def patterns_of(parts: Mapping[str, Sequence[Floats]], paper: float) -> dict[str
 
 def hatched(loops: Sequence[Floats], pattern: Pattern, shortest: float) -> Floats:
     """The lines (n, 2, 2) of a pattern inside a face; loops (k, 2): its border, mm; shortest: of a line, mm."""
-    sides = _sides(loops)
+    sides = sides_of(loops)
     low, high = _box(loops)
     strokes = strokes_within((pattern.row(),), low, high)
     if strokes is None:
@@ -119,7 +119,7 @@ def _box(loops: Sequence[Floats]) -> tuple[Floats, Floats]:
     return points.min(axis=0), points.max(axis=0)
 
 
-def _sides(loops: Sequence[Floats]) -> Floats:
+def sides_of(loops: Sequence[Floats]) -> Floats:
     """(n, 2, 2) the sides of all loops."""
     return np.concatenate([np.stack([loop, np.roll(loop, -1, axis=0)], axis=1) for loop in loops])
 

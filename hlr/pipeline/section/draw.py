@@ -73,7 +73,7 @@ def draw_sections(
             scale = draft.image.placement.scale
             asked = at_scale(options, scale) if options.same_scale else options
             drawing, cut = session.drawing(draft, Request(views[k], asked)), cuts[k]
-            found[k] = drawing if cut is None else _finished(drawing, session, cut, directed(views[k])[0])
+            found[k] = drawing if cut is None else _finished(drawing, session, cut, opened, directed(views[k])[0])
     drawings = [found[k] for k in range(len(views))]
     least = min(drawing.scale for drawing in drawings)
     if options.same_scale and any(drawing.scale > least for drawing in drawings):
@@ -106,10 +106,10 @@ def _of_section(options: Options) -> Options:
     return replace(options, hidden=bool(options.hidden))
 
 
-def _finished(drawing: Drawing, session: Session, cut: _Cut, name: str) -> Drawing:
+def _finished(drawing: Drawing, session: Session, cut: _Cut, whole: Source, name: str) -> Drawing:
     """The drawing with its hatches, and what is to be said about them."""
     started, clock = perf_counter(), dict(drawing.timings)
-    drawing = with_hatches(drawing, session, cut.plane, cut.source)
+    drawing = with_hatches(drawing, session, cut.plane, cut.source, whole)
     drawing = replace(drawing, notes=(*drawing.notes, *_notes(drawing, cut, name)))
     lap(clock, "linework", started)
     clock["total"] = sum(seconds for stage, seconds in clock.items() if stage != "total")
@@ -123,7 +123,9 @@ def _notes(drawing: Drawing, cut: _Cut, name: str) -> list[Note]:
     unhatched = sorted(cut.source.cut - hatched)
     if cut.plane.touching:
         text = f"the plane of section {name} only touches the model: nothing is taken away."
-    elif not cut.source.cut:
+    elif not cut.source.cut and not hatched and cut.source.through:
+        text = f"all parts that the plane of section {name} goes through stay whole: nothing is hatched."
+    elif not cut.source.cut and not hatched:
         text = f"the plane of section {name} goes through no part: nothing is hatched."
     elif unhatched:
         several = f"{len(unhatched)} parts that it cuts, such as" if len(unhatched) > 1 else "it cuts"

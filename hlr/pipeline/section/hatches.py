@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,62 +10,111 @@ from hlr.common.types import Floats
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line
 from hlr.drawing.section import Section
-from hlr.linework.cut_faces import cut_faces
+from hlr.linework.cut_faces import CutFace, cut_faces, level_faces
 from hlr.linework.hatch_strokes import uncovered
-from hlr.linework.hatching import hatched, patterns_of
+from hlr.linework.hatching import hatched, patterns_of, sides_of
+from hlr.linework.joints import covered, is_covered, joint_borders
 from hlr.pipeline.section.plane import Plane
 from hlr.pipeline.section.sources import CutSource
 from hlr.pipeline.session import Session
+from hlr.request.accuracy import ANGLE
+from hlr.source.model import Source
 from hlr.tables.sheets import SHEETS, USUAL
 from hlr.window.frame import Frame
 from hlr.window.lines import cut_lines
 
 
-def with_hatches(drawing: Drawing, session: Session, plane: Plane, cut: CutSource) -> Drawing:
-    """A drawing of what a plane leaves, with its cut faces hatched. session: that has drawn it."""
-    faces = [
-        face
-        for face in cut_faces(
-            session.parts,
-            np.array(plane.point),
-            np.array(plane.normal),
-            plane.near,
-            lambda name: plane.level.get(cut.whose[name]),
-        )
-        if cut.whose[face.part] in cut.cut
-    ]
+@dataclass(frozen=True, slots=True, eq=False)
+class _Hatched:
+    """A face to be hatched. loops (k, 2): its border on paper; cover: what it is hatched under, None: all of it."""
+
+    face: CutFace
+    loops: list[Floats]
+    cover: list[Floats] | None = None
+
+
+def with_hatches(drawing: Drawing, session: Session, plane: Plane, cut: CutSource, whole: Source) -> Drawing:
+    """A drawing of what a plane leaves, with its cut faces hatched. session: that has drawn it; whole: the source."""
     paper = _Paper(drawing)
-    flat = [[paper.on(border) for border in face.borders] for face in faces]
-    whole: dict[str, list[Floats]] = {}
-    for face, loops in zip(faces, flat, strict=True):
-        whole.setdefault(cut.whose[face.part], []).extend(loops)
-    patterns = patterns_of(whole, _shorter_side(drawing))
+    every = [*_cut_faces(session, plane, cut, paper), *_joints(session, plane, cut, paper, whole)]
+    by_part: dict[str, list[Floats]] = {}
+    for each in every:
+        by_part.setdefault(cut.whose[each.face.part], []).extend(each.loops)
+    patterns = patterns_of(by_part, _shorter_side(drawing))
     number = {part.name: k for k, part in enumerate(drawing.parts)}
     level = float(np.array(plane.point) @ np.array(plane.normal))
-    cover = _cover(session, plane, cut, paper)
+    before = _before(session, plane, cut, paper)
+    shortest = drawing.accuracy.used
+    # Where parts overlap, a face that is cut lies over joints.
+    over = [sides_of(each.loops) for each in every if each.cover is None]
+    over = over if before is None else [*over, before]
     hatches: list[Line] = []
     rims: list[Line] = []
-    for face, loops in zip(faces, flat, strict=True):
-        part = number[face.part]
-        strokes = hatched(loops, patterns[cut.whose[face.part]], drawing.accuracy.used)
-        strokes = strokes if cover is None else uncovered(strokes, cover)
+    parts: set[int] = set()
+    for each in every:
+        face, part, hiding = each.face, number[each.face.part], before
+        strokes = hatched(each.loops, patterns[cut.whose[face.part]], shortest)
+        borders = [paper.on(face.points[rim]) for rim in face.rims]
+        if each.cover is not None:
+            strokes = covered(strokes, sides_of(each.cover))
+            borders = joint_borders(each.loops, each.cover, shortest)
+            hiding = np.concatenate(over) if over else None
+        strokes = strokes if hiding is None else uncovered(strokes, hiding)
+        if each.cover is not None:
+            strokes = strokes[np.hypot(*(strokes[:, 1] - strokes[:, 0]).T) >= shortest]
+        if each.cover is None or len(strokes):
+            parts.add(part)
         hatches += [Line("hatch", True, part, None, face.number, each, paper.behind(each, level)) for each in strokes]
-        for rim in face.rims:
-            rims += _rim(face.points[rim], part, paper, cover, level)
+        for border in borders:
+            rims += _rim(border, part, paper, hiding, level)
     if drawing.window is not None:
         frame = Frame(drawing.view, drawing.scale * drawing.unit, drawing.window)
         hatches, rims = list(cut_lines(hatches, frame)[0]), list(cut_lines(rims, frame)[0])
-    section = Section(plane.point, plane.normal, tuple(sorted({number[face.part] for face in faces})))
+    section = Section(plane.point, plane.normal, tuple(sorted(parts)))
     counters = {
         **drawing.counters,
         "lines": drawing.counters.get("lines", 0) + len(rims) + len(hatches),
         "hatch_lines": len(hatches),
     }
-    every = (*drawing.lines, *rims, *hatches) if rims or hatches else drawing.lines
-    return replace(drawing, lines=every, section=section, counters=counters)
+    lines = (*drawing.lines, *rims, *hatches) if rims or hatches else drawing.lines
+    return replace(drawing, lines=lines, section=section, counters=counters)
 
 
-def _cover(session: Session, plane: Plane, cut: CutSource, paper: _Paper) -> Floats | None:
+def _cut_faces(session: Session, plane: Plane, cut: CutSource, paper: _Paper) -> list[_Hatched]:
+    """The faces that the plane has cut."""
+    point, normal = np.array(plane.point), np.array(plane.normal)
+    faces = cut_faces(session.parts, point, normal, plane.near, lambda name: plane.level.get(cut.whose[name]))
+    return [
+        _Hatched(face, [paper.on(border) for border in face.borders])
+        for face in faces
+        if cut.whose[face.part] in cut.cut
+    ]
+
+
+def _joints(session: Session, plane: Plane, cut: CutSource, paper: _Paper, whole: Source) -> list[_Hatched]:
+    """The faces that lay in the plane before and on which other parts rest, under those."""
+    ahead = plane.ahead - cut.uncut
+    if not ahead or not any(plane.level.keys() - cut.uncut):
+        return []
+    point, normal = np.array(plane.point), np.array(plane.normal)
+    deflection = min(at.tolerances.deflection for at in session.placements)
+    resting = {
+        part.name: [paper.on(border)[::-1] for face in faces for border in face.borders]
+        for part in whole.mesh(deflection, ANGLE).parts
+        if part.name in ahead
+        for faces in [list(cut_faces([part], point, -normal, plane.near))]
+    }
+    found = []
+    for face in level_faces(session.parts, point, normal, plane.near, lambda name: plane.level.get(cut.whose[name])):
+        own = cut.whose[face.part]
+        cover = [loop for name, loops in resting.items() if name != own for loop in loops]
+        loops = [paper.on(border) for border in face.borders]
+        if own not in cut.uncut and cover and is_covered(loops, sides_of(cover)):
+            found.append(_Hatched(face, loops, cover))
+    return found
+
+
+def _before(session: Session, plane: Plane, cut: CutSource, paper: _Paper) -> Floats | None:
     """(k, 2, 2) the borders, on paper, of what lies before the plane; None: nothing does."""
     before = {name for name, own in cut.whose.items() if own in cut.through}
     if not before:
@@ -76,12 +125,11 @@ def _cover(session: Session, plane: Plane, cut: CutSource, paper: _Paper) -> Flo
     return paper.on(sides.reshape(-1, 3)).reshape(-1, 2, 2)
 
 
-def _rim(points: Floats, part: int, paper: _Paper, cover: Floats | None, level: float) -> list[Line]:
-    """The border (n, 3) of a cut face at a face that lay in the plane before, as far as it is seen."""
-    flat = paper.on(points)
-    if cover is None:
-        return [Line("sharp", True, part, None, None, flat, points)]
-    pieces = uncovered(np.stack([flat[:-1], flat[1:]], axis=1), cover)
+def _rim(flat: Floats, part: int, paper: _Paper, before: Floats | None, level: float) -> list[Line]:
+    """A border (n, 2) of a hatch at which no edge is, as far as it is seen."""
+    if before is None:
+        return [Line("sharp", True, part, None, None, flat, paper.behind(flat, level))]
+    pieces = uncovered(np.stack([flat[:-1], flat[1:]], axis=1), before)
     return [Line("sharp", True, part, None, None, piece, paper.behind(piece, level)) for piece in pieces]
 
 

@@ -29,6 +29,7 @@ class Plane:
     near      what lies so close to the plane lies on it, model units
     touching  the plane only touches the model from the front: nothing is taken away
     level     parts of the whole model that have faces on the plane which look to the viewer, by name
+    ahead     names of those that have faces on it which look away from the viewer
     """
 
     point: Vector
@@ -36,6 +37,7 @@ class Plane:
     near: float
     touching: bool
     level: Mapping[str, PartMesh]
+    ahead: frozenset[str] = frozenset()
 
     def heights(self, points: Floats) -> Floats:
         """(n,) how far points (n, 3) lie before the plane, model units."""
@@ -63,8 +65,8 @@ def plane_of(place: SectionPlace, view: View, source: Source, options: Options) 
     middle = 0.5 * (bounds[0] + bounds[1])
     on = given if isinstance(place, tuple) else middle + (at - float(middle @ normal)) * normal
     x, y, z = (np.asarray(on) + 0.0).tolist()
-    level = with_level_faces(meshed, np.array([x, y, z]), normal, near)
-    return Plane((x, y, z), camera.direction, near, bool(at >= high - near), level)
+    level, ahead = (with_level_faces(meshed, np.array([x, y, z]), sense * normal, near) for sense in (1.0, -1.0))
+    return Plane((x, y, z), camera.direction, near, bool(at >= high - near), level, frozenset(ahead))
 
 
 def _extent(source: Source, meshed: Sequence[PartMesh], chord: float, camera: Camera) -> tuple[float, float]:

@@ -22,12 +22,14 @@ class CutSource:
     whose    the part of the whole model that each of its parts is, or is a piece of, by name
     cut      names of those parts of the whole model that the plane cuts
     through  names of those that it goes through, and which stay whole
+    uncut    names of all those that stay whole
     """
 
     source: Source
     whose: dict[str, str]
     cut: frozenset[str]
     through: frozenset[str] = frozenset()
+    uncut: frozenset[str] = frozenset()
 
 
 def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> CutSource:
@@ -46,8 +48,12 @@ def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> Cut
     whole: list[str] = []
     crossed: list[str] = []
     through: set[str] = set()
-    for name, box in zip(source.names(), source.boxes(), strict=True):
-        corners = _corners(box)
+    # Triangles tell how far a part reaches, its box may reach farther.
+    if isinstance(source, MeshSource):
+        reaches = [part.points for part in source.parts]
+    else:
+        reaches = [_corners(box) for box in source.boxes()]
+    for name, corners in zip(source.names(), reaches, strict=True):
         heights = plane.heights(corners) if len(corners) else np.zeros(1)
         if heights.max() <= plane.near:
             whole.append(name)
@@ -59,7 +65,7 @@ def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> Cut
         found = _cut_meshes(source, plane, whole, crossed)
     if found is None:
         raise OptionError(f"the section leaves nothing of {source.name}: move its plane, or leave it out")
-    return replace(found, through=frozenset(through))
+    return replace(found, through=frozenset(through), uncut=frozenset(uncut))
 
 
 def _corners(box: Floats) -> Floats:
@@ -126,7 +132,7 @@ def _cut_meshes(source: MeshSource, plane: Plane, whole: list[str], crossed: lis
 
     origin, normal = np.array(plane.point), np.array(plane.normal)
     parts = {part.name: part for part in source.parts}
-    left_over = {name: cut_mesh(parts[name], origin, normal, source.name) for name in crossed}
+    left_over = {name: cut_mesh(parts[name], origin, normal, source.name, len(parts) == 1) for name in crossed}
     gone = {name: None for name in parts if name not in whole and name not in left_over}
     left = source.with_meshes({**left_over, **gone})
     if not left.names():

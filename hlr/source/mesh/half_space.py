@@ -9,10 +9,13 @@ from hlr.errors import SourceError
 from hlr.source.model import PartMesh
 
 
-def cut_mesh(part: PartMesh, origin: Floats, normal: Floats, file: str) -> tuple[Floats, Ints] | None:
+def cut_mesh(
+    part: PartMesh, origin: Floats, normal: Floats, file: str, alone: bool = True
+) -> tuple[Floats, Ints] | None:
     """Points (n, 3) and triangles (m, 3) of a part without what lies on the side to which the normal points.
 
-    origin, normal (3,): of the plane, the normal of length 1; file: what the source is called. None: nothing is left.
+    origin, normal (3,): of the plane, the normal of length 1; file: what the source is called;
+    alone: the part is all of it. None: nothing is left.
 
     Raises:
         SourceError: the part is not closed, so that it has no inside.
@@ -29,9 +32,10 @@ def cut_mesh(part: PartMesh, origin: Floats, normal: Floats, file: str) -> tuple
         mesh.merge()
         body = Manifold(mesh)
     if body.status().name != "NoError" or body.is_empty():
+        whole = "" if alone else "keep it whole (uncut), "
         raise SourceError(
             f'Part "{part.name}" of {file} cannot be cut for a section, because its triangles do not close: repair the '
-            "mesh, or draw the CAD model that it was made of."
+            f"mesh, {whole}or draw the CAD model that it was made of."
         )
     left = body.trim_by_plane((-normal).tolist(), float((middle - origin) @ normal)).to_mesh64()
     if not len(left.tri_verts):
