@@ -6,7 +6,7 @@ import pytest
 
 from hlr.errors import SourceError
 from hlr.source.cad import half_space
-from hlr.source.cad.cut_check import CutCheck, is_closed
+from hlr.source.cad.cut_check import CutCheck, has_surfaces, is_closed
 from hlr.source.cad.parts import Leaf
 
 ORIGIN, UP = np.zeros(3), np.array([0.0, 0.0, 1.0])
@@ -80,3 +80,22 @@ def test_a_shape_that_an_oblique_plane_misses_stays_the_same_though_its_box_is_c
     (kept,) = half_space.cut_away([Leaf(bar, "bar")], np.zeros(3), normal)
     assert kept.shape.IsSame(bar)
     assert half_space.cut_away([Leaf(bar, "bar")], np.zeros(3), -normal) == []
+
+
+def test_faces_that_are_triangles_without_surfaces_are_refused():
+    from OCP.BRep import BRep_Builder, BRep_Tool
+    from OCP.BRepMesh import BRepMesh_IncrementalMesh
+    from OCP.TopLoc import TopLoc_Location
+    from OCP.TopoDS import TopoDS_Face
+
+    from hlr.source.cad.shapes import make_compound
+
+    solid = cq.Workplane().box(1, 2, 3).val()
+    BRepMesh_IncrementalMesh(solid.wrapped, 0.1)
+    bare = []
+    for face in solid.Faces():
+        bare.append(TopoDS_Face())
+        BRep_Builder().MakeFace(bare[-1], BRep_Tool.Triangulation_s(face.wrapped, TopLoc_Location()))
+    assert has_surfaces(solid.wrapped)
+    with pytest.raises(SourceError, match=r'"bare" cannot be cut .* because its faces are triangles without surfaces'):
+        half_space.cut_away([Leaf(make_compound(bare), "bare")], ORIGIN, UP)

@@ -48,6 +48,16 @@ class CutCheck:
         return np.asarray((_points(shape) - origin) @ normal)
 
 
+def has_surfaces(shape: Any) -> bool:
+    """Whether each face has one; those of tessellated STEP are triangles alone, at which OpenCASCADE's cut crashes."""
+    from OCP.BRep import BRep_Tool
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+    from OCP.TopoDS import TopoDS
+
+    faces = sub_shapes(shape, Kind.TopAbs_FACE)
+    return all(BRep_Tool.Surface_s(TopoDS.Face(face)) is not None for face in faces)
+
+
 def is_closed(shape: Any) -> bool:
     """Whether each edge of a shape lies between two faces, or twice on one."""
     from OCP.BRep import BRep_Tool

@@ -10,7 +10,7 @@ import numpy as np
 
 from hlr.common.types import Floats
 from hlr.errors import SourceError
-from hlr.source.cad.cut_check import CutCheck
+from hlr.source.cad.cut_check import CutCheck, has_surfaces
 from hlr.source.cad.occt_collections import new_collection
 from hlr.source.cad.part_shapes import OcctShapes
 from hlr.source.cad.parts import Leaf
@@ -55,6 +55,11 @@ def _cut(shape: Any, origin: Floats, normal: Floats, name: str) -> Any | None:
         return shape
     if low >= -NEAR * size:
         return None
+    if not has_surfaces(shape):
+        raise SourceError(
+            f'"{name}" cannot be cut by the plane of a section, because its faces are triangles without surfaces: '
+            "export it as a solid, or as a mesh."
+        )
     block = _block(origin, normal, 0.5 * (box[0] + box[1]), 2.0 * size)
     check = CutCheck(shape, origin, normal, size)
     found: list[Any | None] = []
