@@ -16,6 +16,9 @@ BEYOND = 5.0
 TAIL = 9.0
 """Millimetres: length of an arrow and its tail."""
 
+ASIDE = 0.5 * TAIL
+"""Millimetres from a line to the middle of its letters, over the arrows: those of opposite views lie apart."""
+
 ABOVE = 3.0
 """Millimetres from a view to the name above it."""
 
@@ -71,7 +74,7 @@ def shapes_of(mark: SectionMark) -> MarkShapes:
     texts = [(mark.name, mark.title)]
     if mark.line is None:
         return MarkShapes([], [], [], texts)
-    ends: Sequence[SectionEnd] = section_ends(mark.line, mark.back, TAIL)
+    ends: Sequence[SectionEnd] = section_ends(mark.line, mark.back, TAIL, ASIDE)
     a, b = mark.line
     inner = _toward(a, b), _toward(b, a)
     wide = [(a, inner[0]), (b, inner[1]), *(end.tail for end in ends)]

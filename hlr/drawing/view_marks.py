@@ -43,25 +43,29 @@ class SectionEnd:
     letter: Point
 
 
-def section_ends(ends: tuple[Point, Point], back: Point, tail: float = TAIL) -> tuple[SectionEnd, SectionEnd]:
+def section_ends(
+    ends: tuple[Point, Point], back: Point, tail: float = TAIL, aside: float = 0.0
+) -> tuple[SectionEnd, SectionEnd]:
     """Both ends of a section line: each has an arrow that looks as the viewer of the section does.
 
-    ends: on the page; back: from there to the viewer, of length one; tail: of the arrow with its tail, millimetres
+    ends: on the page; back: from there to the viewer, of length one; tail: of the arrow with its tail, millimetres; aside: from
+    the line to the letter, toward the viewer, millimetres
     """
     a, b = ends
     along = _unit((b[0] - a[0], b[1] - a[1]))
-    one, other = (_section_end(end, side, along, back, tail) for end, side in ((a, -1.0), (b, 1.0)))
+    one, other = (_section_end(end, side, along, back, tail, aside) for end, side in ((a, -1.0), (b, 1.0)))
     return one, other
 
 
-def _section_end(end: Point, side: float, along: Point, back: Point, tail: float) -> SectionEnd:
+def _section_end(end: Point, side: float, along: Point, back: Point, tail: float, aside: float) -> SectionEnd:
     x, y = end
     neck = (x + ARROW * back[0], y + ARROW * back[1])
     left, right = (
         (neck[0] + turn * HALF_ARROW * back[1], neck[1] - turn * HALF_ARROW * back[0]) for turn in (1.0, -1.0)
     )
     begin = (x + tail * back[0], y + tail * back[1])
-    letter = (x + side * LETTER * along[0], y + side * LETTER * along[1])
+    beyond = (side * LETTER * along[0] + aside * back[0], side * LETTER * along[1] + aside * back[1])
+    letter = (x + beyond[0], y + beyond[1])
     return SectionEnd((end, left, right), (begin, neck), letter)
 
 

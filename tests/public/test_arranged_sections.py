@@ -74,6 +74,40 @@ def test_sections_from_other_sides_are_marked_in_the_front_view(method, view, ba
     assert (middle > low).all() and (middle < high).all()
 
 
+def boxes_of(mark, name=False):
+    """(n, 2, 2) around letters, or the name: each letter is 3.75 mm wide and 5 mm high at most."""
+    texts = [(place, text) for place, text in shapes_of(mark).texts if ("-" in text) == name]
+    return [
+        (np.array(place) - (1.875 * len(text), 2.5), np.array(place) + (1.875 * len(text), 2.5))
+        for place, text in texts
+    ]
+
+
+def test_letters_of_opposite_views_of_one_plane_lie_apart():
+    for other in (True, 0.5):
+        one, two = page_of(section={"left": True, "right": other}).sheet.marks
+        assert one.back[0] == -two.back[0]
+        for low, high in boxes_of(one):
+            assert not any((low < top).all() and (bottom < high).all() for bottom, top in boxes_of(two))
+
+
+@pytest.mark.parametrize("method", ["first-angle", "third-angle"])
+@pytest.mark.parametrize("side", [("left",), ("right",), ("left", "right")])
+def test_a_name_lies_clear_of_the_cutting_lines_in_its_view(method, side):
+    """All views are sections: that from the front has its name above, and the cutting lines of the sides."""
+    views = ["front", "top", *side]
+    flange = cq.Workplane().circle(40).extrude(10).faces(">Z").workplane().circle(15).extrude(20)
+    page = page_of(method, views, flange, section=dict.fromkeys(views, True))
+    for mark in page.sheet.marks:
+        ((low, high),) = boxes_of(mark, name=True)
+        for other in page.sheet.marks:
+            shapes = shapes_of(other)
+            for a, b in [*shapes.wide, *shapes.chain, *(arrow[:2] for arrow in shapes.arrows), *boxes_of(other)]:
+                assert not ((low < np.maximum(a, b)).all() and (np.minimum(a, b) < high).all())
+    front = page.sheet.marks[0].name
+    assert abs(front[0] - extent(page, "front")[:, 0].mean()) < 25.0
+
+
 def test_an_oblique_section_is_marked_where_it_is_seen_from_its_edge():
     page = page_of(views=["front", "top", (1, -1, 0)], section={"1,-1,0": (0, 0, 0)})
     (mark,) = page.sheet.marks

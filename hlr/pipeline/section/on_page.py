@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
@@ -11,11 +12,21 @@ from hlr.common.types import Floats
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.lines import bounds_of
 from hlr.drawing.notes import Note
-from hlr.drawing.section_marks import ABOVE, BEYOND, SectionMark, letter_of
+from hlr.drawing.section_marks import ABOVE, BEYOND, SectionMark, letter_of, shapes_of
 from hlr.drawing.view_marks import LETTER, Point
 
 EDGE_ON = 1e-6
 """Sine of the angle by which the plane of a section may be turned to be seen as a line."""
+
+
+WIDE = 0.75
+"""Of their size: how wide letters are."""
+
+CLEAR = 1.0
+"""Millimetres between the name of a section and the mark of another."""
+
+MOST_STEPS = 40
+"""Millimetres by which a name may be moved to the side."""
 
 
 class OnPage(Protocol):
@@ -41,9 +52,8 @@ def section_marks(views: Sequence[OnPage], own: Sequence[bool]) -> tuple[dict[st
     """
     marks: dict[str, SectionMark] = {}
     notes = []
-    for view in views:
-        if view.drawing.section is None:
-            continue
+    sections = [view for view in views if view.drawing.section is not None]
+    for view in sections:
         letter = letter_of(len(marks))
         base = _base_of(view, views, own)
         line = None if base is None else _line(view, base)
@@ -51,7 +61,9 @@ def section_marks(views: Sequence[OnPage], own: Sequence[bool]) -> tuple[dict[st
         if base is None:
             text = f"no view of the page sees the plane of section {letter}-{letter} from its edge: none marks it."
             notes.append(Note("section-not-marked", text))
-    return marks, notes
+    ink = np.concatenate([np.zeros((0, 2)), *(_ink(mark) for mark in marks.values())])
+    named = {view.name: replace(marks[view.name], name=_clear_of(ink, marks[view.name])) for view in sections}
+    return named, notes
 
 
 def _base_of(view: OnPage, views: Sequence[OnPage], own: Sequence[bool]) -> OnPage | None:
@@ -89,6 +101,28 @@ def _name_place(view: OnPage) -> Point:
     bounds = bounds_of(view.drawing.lines)
     x = 0.5 * (bounds.x0 + bounds.x1) + float(view.shift[0])
     return x, bounds.y1 + float(view.shift[1]) + ABOVE + 0.5 * LETTER
+
+
+def _ink(mark: SectionMark) -> Floats:
+    """(n, 2) points all over the lines, arrows and letters of a mark, without its name."""
+    shapes = shapes_of(mark)
+    corners = [*shapes.wide, *shapes.chain, *((tip, left) for tip, left, _ in shapes.arrows)]
+    share = np.linspace(0.0, 1.0, 200)[:, None]
+    points = [np.array(a) + share * np.subtract(b, a) for a, b in corners]
+    around = 0.5 * LETTER * np.array([(x, y) for x in (-1.0, 0.0, 1.0) for y in (-1.0, 0.0, 1.0)])
+    points += [np.array(place) + around for place, text in shapes.texts if text == mark.letter]
+    return np.concatenate([np.zeros((0, 2)), *points])
+
+
+def _clear_of(ink: Floats, mark: SectionMark) -> Point:
+    """The middle of a name where no points (n, 2) lie under it: as near as can be to where it should be."""
+    half = np.array([0.5 * WIDE * LETTER * len(mark.title) + CLEAR, 0.5 * LETTER + CLEAR])
+    for step in range(MOST_STEPS):
+        for sense in (-1.0, 1.0):
+            place = mark.name[0] + sense * step, mark.name[1]
+            if not (np.abs(ink - place) < half).all(axis=1).any():
+                return place
+    return mark.name
 
 
 def _pair(point: Floats) -> Point:
