@@ -48,8 +48,8 @@ def section_ends(
 ) -> tuple[SectionEnd, SectionEnd]:
     """Both ends of a section line: each has an arrow that looks as the viewer of the section does.
 
-    ends: on the page; back: from there to the viewer, of length one; tail: of the arrow with its tail, millimetres; aside: from
-    the line to the letter, toward the viewer, millimetres
+    ends: on the page; back: from there to the viewer, of length one; tail: of the arrow with its tail, millimetres
+    aside: from the line to the letter, toward the viewer, millimetres
     """
     a, b = ends
     along = _unit((b[0] - a[0], b[1] - a[1]))
