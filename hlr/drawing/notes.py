@@ -56,7 +56,7 @@ CODES: dict[NoteCode, str] = {
     "page-too-small": "at the scale that was asked for, the drawing is larger than its page inside the margins",
     "room-unknown": "the template of a page does not say where views may lie: they may lie on its title block",
     "nothing-in-view": "there is not a line in the drawing",
-    "section-not-hatched": "the plane of a section only touches the model, cuts parts that are not closed, or only goes through whole ones",
+    "section-not-hatched": "the plane of a section cuts no part, or parts that are not closed",
     "section-not-marked": "no view of a page sees the plane of a section from its edge, so that none shows where it is",
     "over-time": "reading and the coarsest drawing took longer than the time that was given",
     "script-shape": "which of its shapes a script has shown, or is taken to have meant",
