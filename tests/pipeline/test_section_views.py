@@ -248,3 +248,29 @@ def test_a_page_and_a_drawing_within_a_time_cut_the_model_once_and_forget_it(mon
     del source
     gc.collect()
     assert len(draw._KNOWN) < before
+
+
+def test_equal_parts_that_a_plane_cuts_alike_are_cut_once(monkeypatch):
+    from hlr.source.cad import half_space
+
+    calls, cut_away = [], half_space.cut_away
+    monkeypatch.setattr(half_space, "cut_away", lambda *asked: calls.append(1) or cut_away(*asked))
+    angle = cq.Workplane().polyline([(0, 0), (12, 0), (12, 4), (4, 4), (4, 10), (0, 10)]).close().extrude(20)
+    row = cq.Assembly()
+    places = [
+        *(cq.Location(cq.Vector(20 * k, 0, 3 * k)) for k in range(4)),
+        cq.Location(cq.Vector(100, 0, 0), cq.Vector(0, 0, 1), 90),
+        cq.Location(cq.Vector(120, 0, 0), cq.Vector(0, 1, 0), 180),
+        cq.Location(cq.Vector(140, -5, 0)),
+    ]
+    for k, place in enumerate(places):
+        row.add(angle, name=f"angle{k}", loc=place)
+    drawing = section(row, where=2)
+    # Four alike, and one that is turned about the line of sight; one is turned otherwise, one lies farther ahead.
+    assert len(calls) == 3
+    assert len(drawing.section.parts) == 7
+    alone = [section(angle.val().located(place), where=2) for place in places]
+    assert hatched_area(drawing, 1.0) == pytest.approx(sum(hatched_area(each, 1.0) for each in alone), rel=0.2)
+    assert len(drawing.visible) - len(hatch_of(drawing)) == sum(
+        len(each.visible) - len(hatch_of(each)) for each in alone
+    )

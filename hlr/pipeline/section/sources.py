@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -11,8 +12,12 @@ from hlr.common.types import Floats
 from hlr.errors import OptionError, SourceError
 from hlr.pipeline.section.plane import Plane
 from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.parts import Part
 from hlr.source.mesh.mesh_source import MeshSource
 from hlr.source.model import Source
+
+SAME = 12
+"""Decimals of directions, and of heights over the size of a model: planes that agree in them are the same."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,8 +81,6 @@ def _corners(box: Floats) -> Floats:
 
 
 def _cut_brep(source: BrepSource, plane: Plane, whole: list[str], crossed: list[str]) -> CutSource | None:
-    from hlr.source.cad.closing import as_solid
-    from hlr.source.cad.half_space import cut_away
     from hlr.source.cad.occt_import import load_occt
     from hlr.source.cad.parts import Leaf
     from hlr.source.cad.source_builder import build_source, with_appearance
@@ -87,9 +90,8 @@ def _cut_brep(source: BrepSource, plane: Plane, whole: list[str], crossed: list[
     from OCP.gp import gp_Trsf
     from OCP.TopLoc import TopLoc_Location
 
-    origin, normal = np.array(plane.point), np.array(plane.normal)
-    size = float(np.linalg.norm(np.subtract(*source.bounds())))
     shapes, looks = source.prototypes.shapes, source.appearances()
+    cutter = _PrototypeCutter(source, plane)
     leaves, cut = [], set()
     kept, through = set(whole), set(crossed)
     for part in source.parts:
@@ -97,16 +99,12 @@ def _cut_brep(source: BrepSource, plane: Plane, whole: list[str], crossed: list[
             continue
         move = gp_Trsf()
         move.SetValues(*(float(value) for value in part.transform[:3].ravel()))
-        shape = shapes[part.prototype].Moved(TopLoc_Location(move), False)
-        leaf = Leaf(shape, part.name, part.color, above=part.above)
+        shape = shapes[part.prototype]
         if part.name in through:
-            leaf.shape = as_solid(shape, size)
-            left = cut_away([leaf], origin, normal)
-            if left and not left[0].shape.IsSame(leaf.shape):
-                cut.add(part.name)
-            leaves += left
-        else:
-            leaves.append(leaf)
+            shape, is_cut = cutter.left_of(part)
+            cut |= {part.name} if is_cut else set()
+        if shape is not None:
+            leaves.append(Leaf(shape.Moved(TopLoc_Location(move), False), part.name, part.color, above=part.above))
     if not leaves:
         return None
     made = build_source(source.name, source.kind, leaves, source.notes)
@@ -125,6 +123,39 @@ def _cut_brep(source: BrepSource, plane: Plane, whole: list[str], crossed: list[
     built = BrepSource(source.name, source.kind, parts, made.prototypes, made.notes)
     built.choice, built.reading = source.choice, source.reading
     return CutSource(built, whose, frozenset(cut))
+
+
+class _PrototypeCutter:
+    """Cuts the shapes of parts, each once for all its placements that lie to the plane in the same way.
+
+    A board carries the same part many times over, and a plane along it cuts all of them alike.
+    """
+
+    def __init__(self, source: BrepSource, plane: Plane) -> None:
+        self._shapes = source.prototypes.shapes
+        self._plane = np.array(plane.point), np.array(plane.normal)
+        self._size = float(np.linalg.norm(np.subtract(*source.bounds())))
+        self._solids: dict[int, Any] = {}
+        self._found: dict[tuple[float, ...], tuple[Any | None, bool]] = {}
+
+    def left_of(self, part: Part) -> tuple[Any | None, bool]:
+        """What is left of the shape of a part, without its placement; None: nothing. And whether it is cut."""
+        from hlr.source.cad.closing import as_solid
+        from hlr.source.cad.half_space import cut_away
+        from hlr.source.cad.parts import Leaf
+
+        point, normal = self._plane
+        turned = part.transform[:3, :3].T @ normal
+        scale = float(np.linalg.norm(turned))
+        turned, height = turned / scale, float(normal @ (point - part.transform[:3, 3])) / scale
+        key = part.prototype, *np.round([*turned, height / self._size], SAME).tolist()
+        if key not in self._found:
+            if part.prototype not in self._solids:
+                self._solids[part.prototype] = as_solid(self._shapes[part.prototype], self._size)
+            leaf = Leaf(self._solids[part.prototype], part.name)
+            left = cut_away([leaf], height * turned, turned)
+            self._found[key] = (left[0].shape, not left[0].shape.IsSame(leaf.shape)) if left else (None, False)
+        return self._found[key]
 
 
 def _cut_meshes(source: MeshSource, plane: Plane, whole: list[str], crossed: list[str]) -> CutSource | None:
