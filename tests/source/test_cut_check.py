@@ -45,6 +45,17 @@ def test_what_a_cut_must_do():
     assert not CutCheck(cq.Workplane().sphere(3).val().wrapped, ORIGIN, UP, 7.0).is_cut(None, False)
 
 
+def test_vertices_may_lie_off_the_plane_by_some_tolerances_but_not_far():
+    from OCP.ShapeFix import ShapeFix_ShapeTolerance
+
+    loose = block()
+    ShapeFix_ShapeTolerance().SetTolerance(loose, 0.01)
+    assert CutCheck(loose, ORIGIN, UP, 7.0).is_cut(block(-0.98, 2.04), False)
+    assert not CutCheck(block(), ORIGIN, UP, 7.0).is_cut(block(-0.98, 2.04), False)
+    ShapeFix_ShapeTolerance().SetTolerance(loose, 0.5)
+    assert not CutCheck(loose, ORIGIN, UP, 7.0).is_cut(loose, False)
+
+
 @pytest.mark.parametrize("wrong", ["whole", "lost", "failed", "open"])
 def test_a_shape_that_is_not_cut_as_it_should_is_cut_again_more_loosely(monkeypatch, wrong):
     tried, without = [], half_space._without

@@ -13,13 +13,19 @@ from hlr.source.cad.shapes import sub_shapes
 NEAR = 1e-6
 """Of the size of a shape: what lies so close to the plane may lie on either side of it."""
 
+OFF = 10.0
+"""Tolerances of the shape: how far vertices that a cut has made may lie off the plane."""
+
+MOST_OFF = 0.01
+"""Of the size of a shape: what is left farther before the plane was not cut, whatever its tolerance."""
+
 
 class CutCheck:
     """What a cut must do to a shape. origin, normal (3,): of the plane, the normal of length 1; size: of the shape."""
 
     def __init__(self, shape: Any, origin: Floats, normal: Floats, size: float) -> None:
         self._plane = origin, normal
-        self._near = NEAR * size + _tolerance(shape)
+        self._near = NEAR * size + min(OFF * _tolerance(shape), MOST_OFF * size)
         self._closed = is_closed(shape)
         heights = self._heights(shape)
         self._low, self._high = (float(heights.min()), float(heights.max())) if len(heights) else (0.0, 0.0)
