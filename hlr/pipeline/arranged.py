@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hlr.common.numbers import typed
 from hlr.common.types import Floats, Progress
 from hlr.drawing.drawing import Drawing, DrawnPart, DrawnView
 from hlr.drawing.line import Line
@@ -109,7 +110,8 @@ def _on_any(sheets: Sequence[Paper], rectangle: Rectangle) -> list[Room]:
     ]
     if not found:
         page = f"a page of {sheets[0].width:g} x {sheets[0].height:g} mm"
-        raise OptionError(f"the room {x0:g},{y0:g},{x1:g},{y1:g} leads out of {page}: give two corners on the page")
+        given = ",".join(typed(end) for end in (x0, y0, x1, y1))
+        raise OptionError(f"the room {given} leads out of {page}: give two corners on the page")
     return found
 
 
@@ -303,7 +305,9 @@ def _of_scale(sizes: Sequence[Size], found: Arrangement, fits: float) -> list[No
     needs, room = found.needs(sizes), found.room
     notes = list(size_notes(found.scale * max(math.hypot(*size) for size in sizes), found.scale))
     if needs[0] > room.width + SLACK or needs[1] > room.height + SLACK:
-        size, free = (f"{width:.4g} x {height:.4g} mm" for width, height in (needs, (room.width, room.height)))
+        size, free = (
+            " x ".join(typed(side, 4) for side in both) + " mm" for both in (needs, (room.width, room.height))
+        )
         text = f"the views, {size} at {ratio(found.scale)}, are too large for the page, which has room for {free}"
         text += f": give the scale {ratio(fits)}, or a larger page."
         notes.append(Note("page-too-small", text))

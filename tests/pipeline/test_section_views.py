@@ -83,6 +83,14 @@ def test_the_middle_is_that_of_the_model_and_not_of_control_points(monkeypatch):
         section(plate(), where=30)
 
 
+def test_a_plane_beside_a_large_model_is_told_as_people_type_numbers():
+    hall = cq.Workplane().box(50_000_000, 40_000_000, 12_000)
+    with pytest.raises(
+        OptionError, match=r"at y = 90000000 misses the model: .* reaches from -20000000 to 20000000 mm"
+    ):
+        section(hall, "front", 9e7)
+
+
 def test_a_section_has_hidden_lines_where_they_are_asked_for_alone():
     blind = cq.Workplane().box(60, 30, 40).faces("<Y").workplane().hole(10, 5).faces(">Y").workplane().hole(10, 5)
     assert not section(blind).hidden

@@ -79,6 +79,16 @@ def test_a_scale_that_is_too_large_is_drawn_with_a_warning():
         hlr.draw_arranged(bracket(), options=hlr.Options(scale="5:1", strict=True))
 
 
+def test_sizes_of_pages_are_told_as_people_type_them():
+    hall = cq.Workplane().box(50_000, 40_000, 12_000)
+    page = hlr.draw_arranged(hall, options=hlr.Options(scale=1))
+    (note,) = (note for note in page.notes if note.code == "page-too-small")
+    assert " mm at 1:1, are too large for the page" in note.text
+    assert not re.search(r"\de[+-]", note.text)
+    with pytest.raises(hlr.OptionError, match="the room 0,0,1000000000,1 leads out"):
+        hlr.draw_arranged(bracket(), room=(0, 0, 1e9, 1))
+
+
 def test_lines_that_no_pen_can_show_are_told_once_for_the_page():
     plate = cq.Workplane().box(100, 100, 2).faces(">Z").workplane().rarray(40, 40, 2, 2).hole(0.3)
     page = hlr.draw_arranged(plate)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from hlr.common.numbers import typed
 from hlr.common.types import Floats
 from hlr.errors import OptionError
 from hlr.image.camera import Camera, resolve
@@ -101,7 +102,7 @@ def _told(at: float, low: float, high: float, unit: float, view: View, name: str
     sense = 1.0 if axis is None else direction[axis]
     a, b = sorted((sense * low * unit + 0.0, sense * high * unit + 0.0))
     if axis is None:
-        where = f"lies {at * unit:.6g} mm from the origin toward the viewer, and"
-        return f"{where} {what}: {name} reaches from {a:.6g} to {b:.6g} mm there, so give a point between"
-    where = f"at {'xyz'[axis]} = {sense * at * unit:.6g}"
-    return f"{where} {what}: {name} reaches from {a:.6g} to {b:.6g} mm there, so give a number between"
+        where = f"lies {typed(at * unit)} mm from the origin toward the viewer, and"
+        return f"{where} {what}: {name} reaches from {typed(a)} to {typed(b)} mm there, so give a point between"
+    where = f"at {'xyz'[axis]} = {typed(sense * at * unit)}"
+    return f"{where} {what}: {name} reaches from {typed(a)} to {typed(b)} mm there, so give a number between"
