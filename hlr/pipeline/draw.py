@@ -39,20 +39,22 @@ def draw_views(
 
             check_sections(options.section, views)
             drawings = draw_sections(source, views, options, progress, noted)
-            for drawing in drawings:
-                if options.strict:
-                    refuse_warnings(drawing.notes)
-            return drawings
-        session = Session(source, views, options, progress)
-        if noted is not None:
-            noted([note for placement in session.placements for note in placement.notes])
-        drawings = []
-        for i, (view, draft) in enumerate(zip(views, session.drafts(lines_alone=True), strict=True)):
-            session.progress("visibility", i / len(views))
-            asked = at_scale(options, draft.image.placement.scale) if options.same_scale else options
-            drawings.append(session.drawing(draft, Request(view, asked)))
-        session.progress("linework", 1.0)
+        else:
+            drawings = _drawn_whole(Session(source, views, options, progress), views, options, noted)
     for drawing in drawings:
         if options.strict:
             refuse_warnings(drawing.notes)
+    return drawings
+
+
+def _drawn_whole(session: Session, views: Sequence[View], options: Options, noted: Noted | None) -> list[Drawing]:
+    """Views of a model that no section cuts."""
+    if noted is not None:
+        noted([note for placement in session.placements for note in placement.notes])
+    drawings = []
+    for i, (view, draft) in enumerate(zip(views, session.drafts(lines_alone=True), strict=True)):
+        session.progress("visibility", i / len(views))
+        asked = at_scale(options, draft.image.placement.scale) if options.same_scale else options
+        drawings.append(session.drawing(draft, Request(view, asked)))
+    session.progress("linework", 1.0)
     return drawings

@@ -82,3 +82,36 @@ const MANY: usize = 1000;
 
 /// Pieces of a spline surface along u and v, its spans counted. What the control points are off by falls with the square.
 const PIECES: usize = 8;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::IDENTITY;
+
+    /// Over the unit square, a bump in its middle: 3 x 3 poles, of which the middle one lies at `height`.
+    fn bump(height: f64) -> SplineSurface {
+        let mut data = vec![2.0, 2.0, 3.0, 3.0, 0.0, 0.0];
+        (0..2).for_each(|_| data.extend([0.0, 0.0, 0.0, 1.0, 1.0, 1.0]));
+        for i in 0..3 {
+            for j in 0..3 {
+                let z = if (i, j) == (1, 1) { height } else { 0.0 };
+                data.extend([0.5 * f64::from(i), 0.5 * f64::from(j), z, 1.0]);
+            }
+        }
+        SplineSurface::read(&data).unwrap()
+    }
+
+    #[test]
+    fn a_bump_between_the_edges_reaches_beyond_them() {
+        // The view sees z upward. The surface rises to a quarter of its middle pole.
+        let place = [IDENTITY[0], IDENTITY[2], [0.0; 4]];
+        for height in [8.0, -8.0] {
+            let mut found = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+            add_pieces(&bump(height), [[0.0, 1.0]; 2], &place, &mut found);
+            let [low, high] = [found[0][1], found[1][1]];
+            let (far, near) = if height > 0.0 { (high, low) } else { (-low, high) };
+            assert!((2.0..2.1).contains(&far) && near == 0.0, "{found:?}");
+            assert_eq!([found[0][0], found[1][0]], [0.0, 1.0]);
+        }
+    }
+}
