@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Bounds
-from hlr.writers.dxf_entities import APPLICATION, Target, entities
+from hlr.writers.dxf_entities import APPLICATION, Target, entities, rounded_length
 from hlr.writers.dxf_fill import hatch
 from hlr.writers.dxf_layers import CONTRAST, FILL, Layers
 from hlr.writers.dxf_text import clean
@@ -95,14 +95,15 @@ def _set_header(document: Document, drawing: Drawing, modern: bool, unit: int) -
     """Units, extents, page, and what a program shows when it opens the file."""
     document.header["$LTSCALE"] = 1.0
     document.appids.add(APPLICATION)
-    bounds, page = drawing.bounds, _page(drawing)
+    bounds, page = _rounded(drawing.bounds), _rounded(_page(drawing))
+    width, height = rounded_length(page.width), rounded_length(page.height)
     model = document.modelspace().dxf
     model.extmin, model.extmax = (bounds.x0, bounds.y0, 0.0), (bounds.x1, bounds.y1, 0.0)
     # ezdxf copies them into the header, but for 0, 0, which it takes for none.
     document.header["$EXTMIN"], document.header["$EXTMAX"] = model.extmin, model.extmax
     model.limmin, model.limmax = (page.x0, page.y0), (page.x1, page.y1)
-    centre = ((page.x0 + page.x1) / 2.0, (page.y0 + page.y1) / 2.0)
-    document.set_modelspace_vport(max(page.height, page.width), centre)
+    centre = (rounded_length(0.5 * (page.x0 + page.x1)), rounded_length(0.5 * (page.y0 + page.y1)))
+    document.set_modelspace_vport(max(height, width), centre)
     if not modern:
         document.header["$HANDLING"] = 0
         return
@@ -111,16 +112,20 @@ def _set_header(document: Document, drawing: Drawing, modern: bool, unit: int) -
     document.header["$LWDISPLAY"] = 1
     # Where LibreCAD looks for the scale, the page, and where the drawing lies on it; ezdxf's scale is 0.
     document.header["$PSVPSCALE"] = 1.0
-    document.header["$PINSBASE"] = (-page.x0, -page.y0, 0.0)
+    document.header["$PINSBASE"] = (0.0 - page.x0, 0.0 - page.y0, 0.0)
     sheet = document.active_layout().dxf
-    sheet.limmin, sheet.limmax = (0.0, 0.0), (page.width, page.height)
+    sheet.limmin, sheet.limmax = (0.0, 0.0), (width, height)
     paper = document.modelspace().dxf_layout.dxf
-    paper.paper_width, paper.paper_height = page.width, page.height
+    paper.paper_width, paper.paper_height = width, height
     # Plotted: the limits, one millimetre as one.
     paper.plot_type, paper.plot_paper_units, paper.standard_scale_type = 2, 1, 16
     told = {"Title": title(drawing), **accuracies(drawing), **{f"reached {k}": v for k, v in reached(drawing).items()}}
     for name, value in told.items():
         document.header.custom_vars.append(name, clean(value))
+
+
+def _rounded(bounds: Bounds) -> Bounds:
+    return Bounds(*(rounded_length(value) for value in (bounds.x0, bounds.y0, bounds.x1, bounds.y1)))
 
 
 def _page(drawing: Drawing) -> Bounds:

@@ -138,7 +138,7 @@ def _polyline(flat: Flat, modern: bool) -> Shape:
 def _circle(arc: Arc) -> Shape:
     """A CIRCLE, or an ARC, which runs counter-clockwise."""
     x, y = arc.centre.tolist()
-    centre = f"10\n{_length(x)}\n20\n{_length(y)}\n30\n0.0\n40\n{_length(arc.radii[0])}\n"
+    centre = f"10\n{rounded_length(x)}\n20\n{rounded_length(y)}\n30\n0.0\n40\n{rounded_length(arc.radii[0])}\n"
     if arc.whole:
         return Shape("CIRCLE", (("AcDbCircle", centre),))
     turn = np.arctan2(arc.axes[0, 1], arc.axes[0, 0])
@@ -153,7 +153,7 @@ def _ellipse(arc: Arc) -> Shape:
     long, short = arc.radii
     start, end = (0.0, tau) if arc.whole else (t % tau for t in _counter_clockwise(arc))
     tags = (
-        f"10\n{_length(x)}\n20\n{_length(y)}\n30\n0.0\n11\n{_fine(ax)}\n21\n{_fine(ay)}\n31\n0.0\n"
+        f"10\n{rounded_length(x)}\n20\n{rounded_length(y)}\n30\n0.0\n11\n{_fine(ax)}\n21\n{_fine(ay)}\n31\n0.0\n"
         f"40\n{_fine(short / long)}\n41\n{_fine(start)}\n42\n{_fine(end)}\n"
     )
     return Shape("ELLIPSE", (("AcDbEllipse", tags),))
@@ -188,7 +188,8 @@ def _rounded(flat: Flat) -> list[list[float]]:
     return listed
 
 
-def _length(value: float) -> float:
+def rounded_length(value: float) -> float:
+    """As a DXF file has it, in its unit."""
     return round(value, PLACES) + 0.0
 
 

@@ -2,6 +2,7 @@
 
 import io
 import math
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -180,6 +181,15 @@ def test_widths_and_dashes_are_those_of_the_drawing():
 def test_extents_that_begin_at_the_origin(version):
     header = read(drawing([line([[0, 0], [30, 20]])]), version).header
     assert header["$EXTMIN"][:2] == (0, 0) and header["$EXTMAX"][:2] == (30, 20)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_no_number_of_the_header_ends_in_the_dust_of_a_sum(version):
+    written = drawing([line([[-0.1 - 0.2, 1e-15], [1 / 3, 2 / 3]])])
+    head = written.with_style({"dxf": version}).to_dxf().decode("latin-1").partition("ENTITIES")[0]
+    numbers = [text for text in head.split() if re.fullmatch(r"-?\d+\.\d+(e-?\d+)?", text)]
+    assert "0.333333" in numbers and "-0.3" in numbers
+    assert [text for text in numbers if "e" in text or text == "-0.0" or len(text.partition(".")[2]) > 12] == []
 
 
 @pytest.mark.parametrize("version", VERSIONS)

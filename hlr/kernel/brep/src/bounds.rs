@@ -3,6 +3,7 @@
 //! Planes, cylinders, cones and other ruled surfaces reach farthest on their edges. Spheres, tori and surfaces of
 //! revolution are taken over the (u, v) range of the face, free-form surfaces by their control points there.
 
+use hlr_exact::elementary::{self, sin_cos};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use rayon::prelude::*;
@@ -333,8 +334,8 @@ fn hull(curve: &Curve, range: Range) -> Vec<Vector> {
             let middles = steps([first, last], ARCS).take(ARCS).flat_map(|t| {
                 // Two tangents meet over the middle of the arc between them.
                 let half = 0.5 * (last - first) / ARCS as f64;
-                let (sin, cos) = (t + half).sin_cos();
-                let over = 1.0 / half.cos();
+                let (sin, cos) = sin_cos(t + half);
+                let over = 1.0 / elementary::cos(half);
                 [curve.point(t), along(&along(p, a, cos * over), b, sin * over)]
             });
             middles.chain([curve.point(last)]).collect()

@@ -1,5 +1,7 @@
 //! Boundary representations: curves, surfaces, edges as polylines, and meshes of faces.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
 pub mod assemble;
 pub mod bounds;
 pub mod certificate;

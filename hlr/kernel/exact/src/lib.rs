@@ -1,6 +1,7 @@
 //! One rounding to a grid, then integer predicates without any error.
 
 pub mod arithmetic;
+pub mod elementary;
 pub mod parameter;
 pub mod predicates;
 pub mod snap;

@@ -1,6 +1,7 @@
 //! Checks linework on any points and pieces, step by step and as a whole: it terminates, stays finite, adds nothing and
 //! loses nothing.
 
+use hlr_exact::elementary::hypot;
 use hlr_linework::lines::camera::Camera;
 use hlr_linework::lines::candidates::{About, Chains};
 use hlr_linework::lines::coincident::{Widths, uncovered};
@@ -284,7 +285,7 @@ fn check_thinned(before: &Polyline, after: &Polyline, thin: f64) {
     }
     for p in &before.flat {
         let near =
-            after.flat.windows(2).any(|w| off(p, &w[0], &w[1]) <= thin * (1.0 + 1e-6) + 1e-12 * p[0].hypot(p[1]));
+            after.flat.windows(2).any(|w| off(p, &w[0], &w[1]) <= thin * (1.0 + 1e-6) + 1e-12 * hypot(p[0], p[1]));
         assert!(near, "{p:?} was left out of {before:?}");
     }
 }

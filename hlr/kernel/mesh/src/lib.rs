@@ -1,6 +1,8 @@
 //! Triangle meshes before any view: reading, cleaning, topology, groups, edge classes. Arrays hold millions of
 //! triangles.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
 pub mod bodies;
 pub mod boxes;
 pub mod clean;

@@ -7,6 +7,7 @@ use super::boxes::Box3;
 use super::limits::Watch;
 use super::screen::{NEAR_TIE, Screen};
 use super::statistics::{Statistics, bytes_of};
+use hlr_exact::elementary::cbrt;
 
 pub struct Grid {
     /// Cells along columns, rows and depth.
@@ -25,7 +26,7 @@ impl Grid {
         let boxes: Vec<Box3> = (0..screen.facets.len() as u32).map(|f| Box3::of(screen, f)).collect();
         let (low, high) = boxes.iter().fold((i64::MAX, i64::MIN), |(l, h), b| (l.min(b.depth[0]), h.max(b.depth[1])));
         let (low, high) = if low > high { (0.0, 1.0) } else { (low as f64, high as f64 + 1.0) };
-        let along = (boxes.len() as f64).cbrt().ceil().clamp(1.0, 256.0) as usize;
+        let along = cbrt(boxes.len() as f64).ceil().clamp(1.0, 256.0) as usize;
         let cells = [along.min(screen.width as usize), along.min(screen.height as usize), along];
         let extent = [screen.width as f64, screen.height as f64, high - low];
         let size = std::array::from_fn(|k| extent[k] / cells[k] as f64);

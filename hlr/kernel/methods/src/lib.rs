@@ -23,6 +23,8 @@
 //! Beside them `patch`, curved patches z = f(x, y) for the z-buffer and the scan lines, `quadric`, depth of quadrics,
 //! both by forward differences, and `shading`, values along spans.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
 pub mod active_edges;
 pub mod back_face;
 pub mod boxes;

@@ -16,6 +16,7 @@
 
 use super::depth_grid::DepthGrid;
 use super::scene::Cubic;
+use hlr_exact::elementary::{exp2, log2};
 
 /// A patch over its pixels.
 #[derive(Clone, Debug)]
@@ -71,10 +72,10 @@ impl Patch {
         };
         // The rounding of all differences, half a unit each, must not add up to more than a quarter of a step; all must
         // fit.
-        let wanted = (2.0 * sum(&|_, _| 1.0)).log2().ceil();
-        let room = 124.0 - sum(&|i, j| steps[i][j].abs()).max(1.0).log2().ceil();
+        let wanted = log2(2.0 * sum(&|_, _| 1.0)).ceil();
+        let room = 124.0 - log2(sum(&|i, j| steps[i][j].abs()).max(1.0)).ceil();
         let bits = wanted.min(room).clamp(0.0, 100.0) as u32;
-        let unit = f64::from(bits).exp2();
+        let unit = exp2(f64::from(bits));
         let whole = |d: f64| (d * unit).round_ties_even() as i128;
         Patch { column: columns[0].into(), row: rows[0].into(), bits, differences: steps.map(|r| r.map(whole)) }
     }
@@ -97,7 +98,7 @@ impl Patch {
 
     /// Depths from a pixel on, to the right.
     pub fn walk(&self, column: i64, row: i64) -> Walk {
-        Walk { differences: self.at_pixel(column, row), unit: (-f64::from(self.bits)).exp2() }
+        Walk { differences: self.at_pixel(column, row), unit: exp2(-f64::from(self.bits)) }
     }
 
     /// Depth at a pixel's centre in floating point.

@@ -16,6 +16,7 @@ use super::limits::Watch;
 use super::plane::{STEPS, centre};
 use super::screen::{Facet, NONE, Screen};
 use super::statistics::Statistics;
+use hlr_exact::elementary::hypot;
 use std::cmp::Ordering;
 
 /// Half of an image: pixels (column, row) where line[0] column + line[1] row + line[2] >= 0, or all others.
@@ -34,7 +35,7 @@ impl Half {
     /// Whether a pixel's centre is so near to the cut that rounding may have put it on the wrong side.
     fn is_near(&self, column: i64, row: i64) -> bool {
         let [a, b, c] = self.line;
-        (a * column as f64 + b * row as f64 + c).abs() <= BORDER / STEPS as f64 * a.hypot(b)
+        (a * column as f64 + b * row as f64 + c).abs() <= BORDER / STEPS as f64 * hypot(a, b)
     }
 
     /// The part of the columns [from, to) of a row within the half. The line is monotonic along it, rounding included.

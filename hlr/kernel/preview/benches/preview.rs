@@ -1,5 +1,7 @@
 //! Frames of a scene of boxes and cylinders: `cargo bench --bench preview [parts]`.
 
+#![allow(clippy::disallowed_methods)]
+
 use std::time::Instant;
 
 use hlr_preview::Model;

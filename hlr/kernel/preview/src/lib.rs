@@ -20,6 +20,8 @@
 //! Every tile is computed by one thread, from faces in the order of the model: the bytes do not depend on the number of
 //! threads.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
 pub mod depth_map;
 pub mod edge_functions;
 pub mod face;

@@ -11,6 +11,7 @@
 //! The spiral is turned by one of sixteen angles, chosen by the pixel's position in a square of 4 x 4. The mean over
 //! that square, of pixels of about the same depth, removes the pattern. Nothing is random.
 
+use hlr_exact::elementary::sin_cos;
 use rayon::prelude::*;
 
 use super::depth_map::MapSample;
@@ -114,7 +115,7 @@ fn openness(lens: &Lens, map: &[MapSample], [i, j]: [usize; 2], surface: &Surfac
     let (mut sum, epsilon) = (0.0, 0.01 * reach * reach);
     for k in 0..SAMPLES {
         let share = (k as f64 + 0.5) / SAMPLES as f64;
-        let (sin, cos) = ((share * TURNS + turn) * std::f64::consts::TAU).sin_cos();
+        let (sin, cos) = sin_cos((share * TURNS + turn) * std::f64::consts::TAU);
         let x = place[0] + share * pixels * cos;
         let y = place[1] + share * pixels * sin;
         if x < 0.0 || y < 0.0 || x >= width as f64 || y >= height as f64 {

@@ -1,5 +1,6 @@
 //! Converts linear light to sRGB (IEC 61966-2-1), and back.
 
+use hlr_exact::elementary::power;
 use std::sync::OnceLock;
 
 /// Number of steps of linear light in the table: fine enough that each of the 256 sRGB values is reached.
@@ -48,5 +49,5 @@ impl Default for Encoder {
 }
 
 fn encoded(linear: f64) -> f64 {
-    if linear <= 0.0031308 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+    if linear <= 0.0031308 { 12.92 * linear } else { 1.055 * power(linear, 1.0 / 2.4) - 0.055 }
 }

@@ -10,6 +10,7 @@
 //!               [---+---]
 //! ```
 
+use hlr_exact::elementary::hypot;
 use rayon::prelude::*;
 
 /// A straight piece with round ends, in pixels.
@@ -77,7 +78,7 @@ fn paint(p: &Piece, top: usize, width: usize, cover: &mut [f32]) {
         for i in columns[0]..columns[1] {
             let q = [i as f64 + 0.5 - p.from[0], y - p.from[1]];
             let t = if square > 0.0 { ((q[0] * along[0] + q[1] * along[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
-            let d = (q[0] - t * along[0]).hypot(q[1] - t * along[1]);
+            let d = hypot(q[0] - t * along[0], q[1] - t * along[1]);
             let shared = ((d + 0.5).min(p.half) - (d - 0.5).max(-p.half)).clamp(0.0, 1.0) as f32;
             let here = &mut cover[j * width + i];
             *here = here.max(shared);

@@ -4,6 +4,8 @@
 //! cargo bench --bench visibility -- 4000 16000    prisms per scene
 //! ```
 
+#![allow(clippy::disallowed_methods)]
+
 use std::time::Instant;
 
 use hlr_exact::arithmetic::Exact;

@@ -1,4 +1,6 @@
 //! Decides by exact integers which pieces of the edges are visible, and where surfaces pass through one another.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
 pub mod clash;
 pub mod scan;

@@ -4,6 +4,7 @@ use super::control_net::{ControlNet, Range, height};
 use crate::geometry::curve::Curve;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, along, cross, dot, length, scaled, sub};
+use hlr_exact::elementary::sin_cos;
 
 /// A surface, with the control nets that the bounds use repeatedly.
 pub enum Bends<'a> {
@@ -104,7 +105,7 @@ impl Bends<'_> {
                 let [low, high] = rectangle[0];
                 let half = 0.5 * (high - low);
                 let near = |x: f64| [(x - half).max(-1.0), (x + half).min(1.0)];
-                let (sin, cos) = (0.5 * (low + high)).sin_cos();
+                let (sin, cos) = sin_cos(0.5 * (low + high));
                 let (sin, cos) = (near(sin), near(cos));
                 let of = |k: usize, form: &[f64; 4]| nets[k].range(form, rectangle);
                 let turned = |k: usize, x: Range, y: Range| plus(times(of(k, &a), x), times(of(k, &b), y));

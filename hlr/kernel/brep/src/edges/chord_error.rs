@@ -3,6 +3,7 @@
 use crate::geometry::curve::{Curve, Vec3};
 use crate::geometry::nurbs::{MOST_DEGREE, Nurbs, find_span};
 use crate::geometry::vector::{add, along, dot, length, scaled, sub};
+use hlr_exact::elementary::{self, sin_cos};
 
 /// A bound on the distance between the curve from `a` to `b` and its chord.
 pub fn chord_error(curve: &Curve, a: f64, b: f64) -> f64 {
@@ -18,16 +19,16 @@ pub fn chord_error(curve: &Curve, a: f64, b: f64) -> f64 {
         Curve::Line { .. } => 0.0,
         Curve::Ellipse { a: x, b: y, .. } => {
             // Beyond half a turn the chord gives no bound on the arc.
-            let (sin, cos) = middle.sin_cos();
+            let (sin, cos) = sin_cos(middle);
             if h >= std::f64::consts::FRAC_PI_2 {
                 return length(x) + length(y);
             }
-            (1.0 - h.cos()) * upright(&sum(x, cos, y, sin), &sum(x, -sin, y, cos))
+            (1.0 - elementary::cos(h)) * upright(&sum(x, cos, y, sin), &sum(x, -sin, y, cos))
         }
         Curve::Parabola { a: x, b: y, .. } => h * h * upright(x, &sum(x, 2.0 * middle, y, 1.0)),
         Curve::Hyperbola { a: x, b: y, .. } => {
-            let (sinh, cosh) = (middle.sinh(), middle.cosh());
-            (h.cosh() - 1.0) * upright(&sum(x, cosh, y, sinh), &sum(x, sinh, y, cosh))
+            let (sinh, cosh) = (elementary::sinh(middle), elementary::cosh(middle));
+            (elementary::cosh(h) - 1.0) * upright(&sum(x, cosh, y, sinh), &sum(x, sinh, y, cosh))
         }
         Curve::Spline(n) => spline_error(n, a, b),
     }

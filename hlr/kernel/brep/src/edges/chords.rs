@@ -1,6 +1,7 @@
 //! Divides a curve into the fewest chords that keep the chord error and the turning angle, each with an equal share of
 //! both.
 
+use hlr_exact::elementary::{acos, atan2};
 use std::f64::consts::{FRAC_PI_3, TAU};
 
 use super::chord_error::chord_error;
@@ -47,7 +48,7 @@ fn stretch(curve: &Curve, low: f64, high: f64, deflection: f64, angle: f64, out:
         && dot(a, b).abs() <= 1e-9 * dot(a, a)
     {
         // The sagitta of an arc of the angle h is 1 - cos(h / 2), in radii.
-        let step = 2.0 * (1.0 - (deflection / length(a)).min(0.5)).acos();
+        let step = 2.0 * acos(1.0 - (deflection / length(a)).min(0.5));
         let mut count = ((high - low) / step.min(angle).min(FRAC_PI_3) - 1e-9).ceil().clamp(1.0, MOST_CHORDS as f64);
         if high - low > TAU - 1e-9 {
             // A whole circle gets a multiple of four chords, so that it is as wide as it is high.
@@ -125,7 +126,7 @@ fn turning(curve: &Curve, from: f64, to: f64) -> f64 {
     let width = to - from;
     // Evaluated slightly inside: the ends may be corners.
     let [a, b] = [from + 1e-6 * width, to - 1e-6 * width].map(|t| curve.derivatives(t)[1]);
-    length(&cross(&a, &b)).atan2(dot(&a, &b))
+    atan2(length(&cross(&a, &b)), dot(&a, &b))
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::locations::{Matrix, determinant};
 use crate::geometry::vector::{Vector, dot, sub};
+use hlr_exact::elementary::power;
 
 /// The vector divided by its length; None where it has none.
 pub fn unit<const N: usize>(mut vector: [f64; N]) -> Option<[f64; N]> {
@@ -13,7 +14,7 @@ pub fn unit<const N: usize>(mut vector: [f64; N]) -> Option<[f64; N]> {
 /// The placement with a rotation, times a scale that is negative for a mirror image. None where it has no volume.
 pub fn square_placement(rows: &Matrix) -> Option<Matrix> {
     let volume = determinant(rows);
-    let scale = volume.signum() * volume.abs().powf(1.0 / 3.0);
+    let scale = volume.signum() * power(volume.abs(), 1.0 / 3.0);
     if scale == 0.0 || !scale.is_finite() {
         return None;
     }

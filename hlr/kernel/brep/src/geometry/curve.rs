@@ -9,6 +9,7 @@
 //! ```
 
 use super::nurbs::{MOST_DEGREE, Nurbs, dehomogenized};
+use hlr_exact::elementary::{cosh, sin_cos, sinh};
 
 pub type Vec3 = [f64; 3];
 
@@ -110,12 +111,12 @@ impl Curve {
         match self {
             Curve::Line { p, a } => form(p, a, &[0.0; 3], [[t, 0.0], [1.0, 0.0], [0.0, 0.0]]),
             Curve::Ellipse { p, a, b } => {
-                let (s, c) = t.sin_cos();
+                let (s, c) = sin_cos(t);
                 form(p, a, b, [[c, s], [-s, c], [-c, -s]])
             }
             Curve::Parabola { p, a, b } => form(p, a, b, [[t * t, t], [2.0 * t, 1.0], [2.0, 0.0]]),
             Curve::Hyperbola { p, a, b } => {
-                let (s, c) = (t.sinh(), t.cosh());
+                let (s, c) = (sinh(t), cosh(t));
                 form(p, a, b, [[c, s], [s, c], [c, s]])
             }
             Curve::Spline(n) => dehomogenized(&n.homogeneous(t)),
@@ -126,7 +127,7 @@ impl Curve {
         match self {
             Curve::Line { p, a } => [p[0] + t * a[0], p[1] + t * a[1], p[2] + t * a[2]],
             Curve::Ellipse { p, a, b } => {
-                let (s, c) = t.sin_cos();
+                let (s, c) = sin_cos(t);
                 [0, 1, 2].map(|i| p[i] + (c * a[i] + s * b[i]))
             }
             Curve::Spline(n) => n.point(t),

@@ -11,6 +11,7 @@
 //! 9 offset       the distance, the kind of the basis, the basis's numbers
 //! ```
 
+use hlr_exact::elementary::{cos, sin, sin_cos};
 use std::f64::consts::TAU;
 
 use super::curve::Curve;
@@ -55,7 +56,7 @@ impl Surface {
         Some(match kind {
             1 => Surface::Plane(frame(0)?),
             2 => Surface::Cylinder(frame(1)?, data[12]),
-            3 => Surface::Cone(frame(2)?, data[12], data[13].sin(), data[13].cos()),
+            3 => Surface::Cone(frame(2)?, data[12], sin(data[13]), cos(data[13])),
             4 => Surface::Sphere(frame(1)?, data[12]),
             5 => Surface::Torus(frame(2)?, data[12], data[13]),
             6 => {
@@ -94,7 +95,7 @@ impl Surface {
             Surface::Torus(f, major, minor) => f.ring(u, v, *major, *minor),
             Surface::Revolution(origin, axis, curve) => {
                 let [p, d, _] = curve.derivatives(v);
-                let (sin, cos) = u.sin_cos();
+                let (sin, cos) = sin_cos(u);
                 let turned = |w: &Vector| {
                     let upright = scaled(axis, dot(axis, w) * (1.0 - cos));
                     along(&along(&upright, w, cos), &cross(axis, w), sin)
@@ -202,14 +203,14 @@ impl Frame {
 
     /// Radial and tangential directions at the angle u about z.
     pub(super) fn around(&self, u: f64) -> (Vector, Vector) {
-        let (sin, cos) = u.sin_cos();
+        let (sin, cos) = sin_cos(u);
         (along(&scaled(&self.x, cos), &self.y, sin), along(&scaled(&self.y, cos), &self.x, -sin))
     }
 
     /// Point and derivatives of a circle of radius `minor`, at the distance `major` from the axis and turned about it.
     fn ring(&self, u: f64, v: f64, major: f64, minor: f64) -> (Vector, Vector, Vector) {
         let (out, turn) = self.around(u);
-        let (sin, cos) = v.sin_cos();
+        let (sin, cos) = sin_cos(v);
         let radius = major + minor * cos;
         (
             along(&along(&self.origin, &out, radius), &self.z, minor * sin),

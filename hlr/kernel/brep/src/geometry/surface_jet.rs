@@ -4,6 +4,7 @@ use super::curve::Curve;
 use super::jet::Jet;
 use super::surface::{Frame, Surface};
 use super::vector::{Vector, add, along, cross, dot, length, scaled, sub};
+use hlr_exact::elementary::sin_cos;
 
 /// Step of the difference quotient for second derivatives of an offset surface, in offset distances.
 const STEP: f64 = 1e-3;
@@ -38,7 +39,7 @@ impl Surface {
             Surface::Torus(f, major, minor) => Self::ring_jet(f, uv, *major, *minor),
             Surface::Revolution(origin, axis, curve) => {
                 let [p, d, dd] = curve.derivatives(v);
-                let (sin, cos) = u.sin_cos();
+                let (sin, cos) = sin_cos(u);
                 let turned = |w: &Vector| {
                     let upright = scaled(axis, dot(axis, w) * (1.0 - cos));
                     along(&along(&upright, w, cos), &cross(axis, w), sin)
@@ -60,7 +61,7 @@ impl Surface {
     /// A circle of radius `minor`, at the distance `major` from the axis and turned about it.
     fn ring_jet(f: &Frame, [u, v]: [f64; 2], major: f64, minor: f64) -> Jet {
         let (out, turn) = f.around(u);
-        let (sin, cos) = v.sin_cos();
+        let (sin, cos) = sin_cos(v);
         let radius = major + minor * cos;
         Jet {
             point: along(&along(&f.origin(), &out, radius), &f.axis(), minor * sin),

@@ -1,11 +1,12 @@
 //! How far a wave reaches over a range of its angle.
 
+use hlr_exact::elementary::{atan2, cos, hypot, sin};
 use std::f64::consts::{PI, TAU};
 
 /// The range of a cos t + b sin t.
 pub fn waves(a: f64, b: f64, [first, last]: [f64; 2]) -> [f64; 2] {
-    let (size, top) = (a.hypot(b), b.atan2(a));
-    let ends = [first, last].map(|t| if t.is_finite() { a * t.cos() + b * t.sin() } else { 0.0 });
+    let (size, top) = (hypot(a, b), atan2(b, a));
+    let ends = [first, last].map(|t| if t.is_finite() { a * cos(t) + b * sin(t) } else { 0.0 });
     let reaches = |at: f64| !(last - first).is_finite() || at + TAU * ((first - at) / TAU).ceil() <= last;
     let high = if reaches(top) { size } else { ends[0].max(ends[1]) };
     let low = if reaches(top + PI) { -size } else { ends[0].min(ends[1]) };

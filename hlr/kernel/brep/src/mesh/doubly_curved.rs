@@ -19,6 +19,7 @@ use super::sweep;
 use super::triangulation::Triangulation;
 use crate::geometry::surface::Surface;
 use hlr_accuracy::MESH_BESIDE_BORDER;
+use hlr_exact::elementary::hypot;
 
 /// Limit on the rounds in which points are inserted.
 const ROUNDS: usize = 16;
@@ -48,7 +49,7 @@ pub fn triangulate(
     let outline = Outline::new(loops, |from, to, shares| {
         let (a, b) = (field.to_chart(from), field.to_chart(to));
         let middle = [0, 1].map(|k| 0.5 * (a[k] + b[k]));
-        let count = ((b[0] - a[0]).hypot(b[1] - a[1]) / field.at(middle)).ceil().min(1000.0) as usize;
+        let count = (hypot(b[0] - a[0], b[1] - a[1]) / field.at(middle)).ceil().min(1000.0) as usize;
         shares.extend((1..count).map(|k| k as f64 / count as f64));
     })?;
     let chart = outline.mapped(|uv| field.to_chart(uv));

@@ -1,6 +1,7 @@
 //! Edge flips: an inner edge becomes the other diagonal of its two triangles.
 
 use super::plane::{area, side};
+use hlr_exact::elementary::hypot;
 
 /// Limit on the rounds over all edges.
 const ROUNDS: usize = 16;
@@ -86,7 +87,7 @@ pub fn without_needles(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
     // The height over the longest side divided by that side, and the number of that side.
     let slim = |t: [u32; 3]| {
         let p = t.map(|i| uv[i as usize]);
-        let length = |k: usize| (p[(k + 1) % 3][0] - p[k][0]).hypot(p[(k + 1) % 3][1] - p[k][1]);
+        let length = |k: usize| hypot(p[(k + 1) % 3][0] - p[k][0], p[(k + 1) % 3][1] - p[k][1]);
         let longest = (1..3).fold(0, |best, k| if length(k) > length(best) { k } else { best });
         (area(&p[0], &p[1], &p[2]) / length(longest).powi(2).max(f64::MIN_POSITIVE), longest)
     };

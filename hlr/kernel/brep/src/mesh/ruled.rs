@@ -12,6 +12,7 @@ use super::progress::Progress;
 use super::sweep;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{along, cross, dot, from_line, sub, unit};
+use hlr_exact::elementary::cos;
 
 /// Factor on v for Delaunay triangulation, where the sweep fails: triangles become as narrow in u as possible.
 const FLAT: f64 = 1e-3;
@@ -84,7 +85,7 @@ fn edge_error(surface: &Surface, a: [f64; 2], b: [f64; 2], swapped: bool) -> f64
     if turn == 0.0 {
         return 0.0;
     }
-    let arc = |angle: f64| 1.0 - (0.5 * angle.min(std::f64::consts::TAU)).cos();
+    let arc = |angle: f64| 1.0 - cos(0.5 * angle.min(std::f64::consts::TAU));
     match surface {
         Surface::Cylinder(_, r) => r.abs() * arc(turn),
         // Unrolled, the line between two generators has the curvature c / x^3 at the distance x from the apex, where it

@@ -4,6 +4,7 @@
 //! L du^2 / 8. Spacings are chosen so that the errors along u and v are equal. The chart stretches u and v each by a
 //! function of its own. On a sphere this is the Mercator projection, which makes the spacing uniform in all directions.
 
+use hlr_exact::elementary::{exp, exp2, hypot, ln, log2};
 use std::f64::consts::LN_2;
 
 use super::progress::Progress;
@@ -211,7 +212,7 @@ fn spacing(jet: &Jet, deflection: f64, angle: f64) -> [f64; 2] {
     let (a, b) = (l.abs().max(e * least), k.abs().max(g * least));
     let twist = m.abs() / (a * b).sqrt();
     // The error of a triangle of side s is s^2 / 6 where both curvatures have one sign, and s^2 / 8 on a saddle.
-    let square = MESH_AIM * deflection * if l * k < 0.0 { 8.0 / 1.0f64.hypot(twist) } else { 6.0 / (1.0 + twist) };
+    let square = MESH_AIM * deflection * if l * k < 0.0 { 8.0 / hypot(1.0, twist) } else { 6.0 / (1.0 + twist) };
     let turn = [(l * l / e + m * m / g).sqrt(), (k * k / g + m * m / e).sqrt()];
     // How much the direction of lines along v turns along u, and the other way round.
     let across = |d: &[f64; 3], square: f64| length(&along(&jet.duv, d, -dot(&jet.duv, d) / square)) / square.sqrt();
@@ -246,7 +247,7 @@ fn charted(lines: [Vec<f64>; 2], needs: &[Need], straight: bool) -> Field {
             let mut sums = vec![[0.0f64; 2]; counts[side]];
             for (number, need) in needs.iter().enumerate() {
                 let (i, j) = (number / counts[1], number % counts[1]);
-                let aspect = (need.size[0] / need.size[1]).ln();
+                let aspect = ln(need.size[0] / need.size[1]);
                 let wanted = if side == 1 { aspect + logs[0][i] } else { logs[1][j] - aspect };
                 let sum = &mut sums[if side == 1 { j } else { i }];
                 sum[0] += need.points() * wanted;
@@ -258,8 +259,8 @@ fn charted(lines: [Vec<f64>; 2], needs: &[Need], straight: bool) -> Field {
     if straight {
         logs.iter_mut().flatten().for_each(|x| *x = (*x / LN_2).round() * LN_2);
     }
-    let slopes = logs.map(|log| log.iter().map(|x| x.exp()).collect::<Vec<_>>());
-    let scale = straight.then(|| slopes.each_ref().map(|s| s[0].log2().round().exp2()));
+    let slopes = logs.map(|log| log.iter().map(|&x| exp(x)).collect::<Vec<_>>());
+    let scale = straight.then(|| slopes.each_ref().map(|s| exp2(log2(s[0]).round())));
     let chart = [0, 1].map(|k| {
         if let Some(scale) = scale {
             return lines[k].iter().map(|x| x * scale[k]).collect();

@@ -19,6 +19,7 @@
 mod clear_cases;
 mod side;
 
+use hlr_exact::elementary::sin;
 use std::f64::consts::PI;
 
 use crate::geometry::surface::Surface;
@@ -88,7 +89,7 @@ fn plain_meeting(sides: &[Fixed; 2], recorded: bool) -> Meeting {
     let (mut count, mut squares, mut least, mut most) = (0, 0.0, f64::INFINITY, 0.0f64);
     for angle in places(sides, false).into_iter().filter_map(|share| angle(sides, share)) {
         (least, most) = (least.min(angle), most.max(angle));
-        (count, squares) = (count + 1, squares + angle.sin().powi(2));
+        (count, squares) = (count + 1, squares + sin(angle).powi(2));
         // The remaining places cannot change the answer.
         if most > WAVERING && (!recorded || least <= NEARLY_TANGENT) {
             return Meeting::Whole(recorded);
@@ -97,7 +98,7 @@ fn plain_meeting(sides: &[Fixed; 2], recorded: bool) -> Meeting {
     if count == 0 {
         return Meeting::Unknown;
     }
-    let wavers = most <= WAVERING && squares / f64::from(count) <= MOSTLY_TANGENT.sin().powi(2);
+    let wavers = most <= WAVERING && squares / f64::from(count) <= sin(MOSTLY_TANGENT).powi(2);
     Meeting::Whole(most <= TANGENT || (least <= NEARLY_TANGENT && (recorded || wavers)))
 }
 

@@ -4,6 +4,7 @@ use crate::format::{Matrix, moved, turned};
 use crate::geometry::curve::Curve;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, cross, dot, length, scaled};
+use hlr_exact::elementary::atan2;
 
 /// Radians: surfaces that meet at less are tangent. STEP and IGES readers assume the same.
 pub const TANGENT: f64 = 0.01;
@@ -77,7 +78,7 @@ impl Side<'_> {
 /// Angle between the faces' normals in radians; None where a face has no normal.
 pub fn angle(sides: &[Fixed; 2], share: f64) -> Option<f64> {
     let (one, two) = (sides[0].at(share)?, sides[1].at(share)?);
-    Some(length(&cross(&one, &two)).atan2(dot(&one, &two)))
+    Some(atan2(length(&cross(&one, &two)), dot(&one, &two)))
 }
 
 pub fn ascending(shares: &mut Vec<f64>) {

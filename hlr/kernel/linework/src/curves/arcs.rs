@@ -5,6 +5,7 @@
 //! (SVG 2, appendix B.2.4) and its error is measured. An arc with too large an error gets more digits or is divided.
 //! Where that does not help, as in circles seen nearly edge-on, it becomes cubic curves.
 
+use hlr_exact::elementary::{atan2, log10, power, sin_cos, tan};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::strokes::{ARC, CONTROL, CUBIC, START, Shape, WHOLE};
@@ -62,7 +63,7 @@ impl Rows {
 
 impl Arc {
     pub fn at(&self, t: f64) -> Vec2 {
-        let (s, c) = t.sin_cos();
+        let (s, c) = sin_cos(t);
         [0, 1].map(|k| self.centre[k] + c * self.axes[0][k] + s * self.axes[1][k])
     }
 
@@ -76,7 +77,7 @@ impl Arc {
 
     /// Rotation of the first axis in degrees, between -90 and 90.
     fn rotation(&self) -> f64 {
-        let degrees = self.axes[0][1].atan2(self.axes[0][0]).to_degrees();
+        let degrees = atan2(self.axes[0][1], self.axes[0][0]).to_degrees();
         degrees - (degrees / 180.0).round() * 180.0
     }
 
@@ -90,7 +91,7 @@ impl Arc {
     fn as_element(&self, scale: f64, accuracy: f64) -> Self {
         let [major, minor] = self.radii();
         let turned = shape(self, scale, EXTRA, accuracy).rotation as f64 * 10f64.powi(-(ROTATION as i32));
-        let (s, c) = turned.to_radians().sin_cos();
+        let (s, c) = sin_cos(turned.to_radians());
         Self { centre: self.centre, axes: [[major * c, major * s], [-minor * s, minor * c]], angles: [0.0, -TAU] }
     }
 
@@ -100,7 +101,7 @@ impl Arc {
         let d = minus(p, &self.centre);
         if !self.flat() {
             let along = |k: usize, r: f64| (d[0] * self.axes[k][0] + d[1] * self.axes[k][1]) / (r * r);
-            let t = along(1, minor).atan2(along(0, major));
+            let t = atan2(along(1, minor), along(0, major));
             return length(&minus(p, &self.at(t)));
         }
         // On a flat arc the angle of a nearby point is not accurate enough.
@@ -179,7 +180,7 @@ fn shape(arc: &Arc, scale: f64, extra: usize, accuracy: f64) -> Shape {
         return Shape { radii, ..Shape::default() };
     }
     let off = ARC_ROUND * accuracy / (major - minor);
-    let digits = (-off.to_degrees().log10()).ceil().clamp(0.0, ROTATION as f64) as i32;
+    let digits = (-log10(off.to_degrees())).ceil().clamp(0.0, ROTATION as f64) as i32;
     let unit = 10f64.powi(ROTATION as i32 - digits);
     Shape { radii, rotation: ((arc.rotation() * 10f64.powi(digits)).round() * unit) as i64, ..Shape::default() }
 }
@@ -199,7 +200,7 @@ impl Drawn {
     /// From two end points and a shape (SVG 2, appendix B.2.4); None where nothing is drawn. unit: of the grid, mm.
     pub fn between(shape: &Shape, a: &Vec2, b: &Vec2, unit: f64) -> Option<Self> {
         let [mut rx, mut ry] = shape.radii.map(|r| r as f64 * unit / 10f64.powi(EXTRA as i32));
-        let (sin, cos) = (shape.rotation as f64 * 10f64.powi(-(ROTATION as i32))).to_radians().sin_cos();
+        let (sin, cos) = sin_cos((shape.rotation as f64 * 10f64.powi(-(ROTATION as i32))).to_radians());
         let (dx, dy) = (0.5 * (a[0] - b[0]), 0.5 * (a[1] - b[1]));
         let (x, y) = (cos * dx + sin * dy, cos * dy - sin * dx);
         let lambda = x * x / (rx * rx) + y * y / (ry * ry);
@@ -213,8 +214,8 @@ impl Drawn {
         let root = (1.0 / lambda.min(1.0) - 1.0).max(0.0).sqrt() * if shape.large == shape.rising { -1.0 } else { 1.0 };
         let (cx, cy) = (root * rx * y / ry, -root * ry * x / rx);
         let centre = [cos * cx - sin * cy + 0.5 * (a[0] + b[0]), sin * cx + cos * cy + 0.5 * (a[1] + b[1])];
-        let start = ((y - cy) / ry).atan2((x - cx) / rx);
-        let mut turn = ((-y - cy) / ry).atan2((-x - cx) / rx) - start;
+        let start = atan2((y - cy) / ry, (x - cx) / rx);
+        let mut turn = atan2((-y - cy) / ry, (-x - cx) / rx) - start;
         if shape.rising && turn < 0.0 {
             turn += TAU;
         } else if !shape.rising && turn > 0.0 {
@@ -230,7 +231,7 @@ impl Drawn {
 
     /// A point for s in 0..1.
     pub fn at(&self, s: f64) -> Vec2 {
-        let (sin, cos) = (self.start + s * self.turn).sin_cos();
+        let (sin, cos) = sin_cos(self.start + s * self.turn);
         let (u, v) = (cos * self.radii[0], sin * self.radii[1]);
         let [c, d] = self.turned;
         [self.centre[0] + c * u - d * v, self.centre[1] + d * u + c * v]
@@ -271,12 +272,12 @@ fn cubics(arc: &Arc, ends: &[Vec2; 2], scale: f64, accuracy: f64, out: &mut Rows
     let grid = |p: &Vec2| p.map(|c| (c * scale).round() as i64);
     let turned = arc.angles[1] - arc.angles[0];
     // A cubic for a quarter circle is off by 2.8e-4 of the radius; the error falls with the sixth power of the angle.
-    let share = (2.8e-4 * arc.radii()[0] / (ARC_CUBIC * accuracy)).max(1e-12).powf(1.0 / 6.0);
+    let share = power((2.8e-4 * arc.radii()[0] / (ARC_CUBIC * accuracy)).max(1e-12), 1.0 / 6.0);
     let pieces = ((turned.abs() / FRAC_PI_2 * share.max(1.0)).ceil()).max(1.0);
     let step = turned / pieces;
-    let arm = 4.0 / 3.0 * (0.25 * step).tan();
+    let arm = 4.0 / 3.0 * tan(0.25 * step);
     let along = |t: f64, by: f64| {
-        let (s, c) = t.sin_cos();
+        let (s, c) = sin_cos(t);
         [0, 1].map(|k| arc.centre[k] + (c - by * s) * arc.axes[0][k] + (s + by * c) * arc.axes[1][k])
     };
     out.push(grid(&ends[0]), START, None);

@@ -5,6 +5,7 @@
 //! The gap keeps its width and the dashes take up the rest. Short strokes have shorter dashes, then shorter gaps, and
 //! the shortest are drawn through, so that a small hidden circle is still a circle.
 
+use hlr_exact::elementary::log10;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
@@ -208,7 +209,7 @@ fn stretch(length: f64, fitted: Option<[f64; 2]>, gaps: [bool; 2]) -> Vec<f64> {
 /// times: how often the pattern is repeated. More repeats get more digits, so that the sum of the rounding errors stays
 /// below half of PAST_THE_END.
 fn rounded(lengths: &[f64], offset: f64, times: f64) -> Fitted {
-    let places = (times.max(1.0).log10().ceil() as usize + 2).clamp(3, 9);
+    let places = (log10(times.max(1.0)).ceil() as usize + 2).clamp(3, 9);
     let scale = 10f64.powi(places as i32);
     let grid = |v: f64| (v * scale).round() as i64;
     Fitted { lengths: lengths.iter().map(|v| grid(*v)).collect(), offset: grid(offset), places }

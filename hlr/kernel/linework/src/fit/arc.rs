@@ -2,6 +2,7 @@
 
 use super::plane::Vec2;
 use hlr_brep::geometry::curve::Vec3;
+use hlr_exact::elementary::{atan2, cos, sin, sin_cos};
 
 /// The ellipse centre + cos s axes[0] + sin s axes[1]. The axes are perpendicular, the longer one first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,11 +24,11 @@ impl Ellipse {
     /// affine in cos u and sin u: t is to u as the true anomaly is to the eccentric one.
     pub fn image(p: &Vec3, a: &Vec3, b: &Vec3) -> Option<Ellipse> {
         let reach = (a[2] * a[2] + b[2] * b[2]).sqrt();
-        let (e, turn) = (reach / p[2], if reach == 0.0 { 0.0 } else { b[2].atan2(a[2]) });
+        let (e, turn) = (reach / p[2], if reach == 0.0 { 0.0 } else { atan2(b[2], a[2]) });
         if p[2] <= 0.0 || e > 1.0 - 1e-9 {
             return None;
         }
-        let (c, s) = (turn.cos(), turn.sin());
+        let (c, s) = (cos(turn), sin(turn));
         let f = 1.0 / (p[2] * (1.0 - e * e));
         let root = (1.0 - e * e).sqrt();
         let plane = |k: usize| {
@@ -38,15 +39,15 @@ impl Ellipse {
         let (centre, u, v) = ([x[0], y[0]], [x[1], y[1]], [x[2], y[2]]);
         // Rotating the parameter by -phase makes the conjugate axes perpendicular.
         let dot = |a: &Vec2, b: &Vec2| a[0] * b[0] + a[1] * b[1];
-        let phi = 0.5 * (2.0 * dot(&u, &v)).atan2(dot(&u, &u) - dot(&v, &v));
-        let (c, s) = (phi.cos(), phi.sin());
+        let phi = 0.5 * atan2(2.0 * dot(&u, &v), dot(&u, &u) - dot(&v, &v));
+        let (c, s) = (cos(phi), sin(phi));
         let major = [c * u[0] + s * v[0], c * u[1] + s * v[1]];
         let minor = [c * v[0] - s * u[0], c * v[1] - s * u[1]];
         Some(Ellipse { centre, axes: [major, minor], phase: -phi, sign: 1.0, pull: e, turn })
     }
 
     pub fn at(&self, s: f64) -> Vec2 {
-        let (sin, cos) = s.sin_cos();
+        let (sin, cos) = sin_cos(s);
         [0, 1].map(|k| self.centre[k] + cos * self.axes[0][k] + sin * self.axes[1][k])
     }
 
@@ -59,8 +60,8 @@ impl Ellipse {
             // atan2 of the half angles keeps the branch: u - theta never exceeds half a turn.
             let turns = (theta / std::f64::consts::TAU).round();
             let half = 0.5 * (theta - turns * std::f64::consts::TAU);
-            let (s, c) = half.sin_cos();
-            2.0 * ((1.0 - self.pull).sqrt() * s).atan2((1.0 + self.pull).sqrt() * c) + turns * std::f64::consts::TAU
+            let (s, c) = sin_cos(half);
+            2.0 * atan2((1.0 - self.pull).sqrt() * s, (1.0 + self.pull).sqrt() * c) + turns * std::f64::consts::TAU
         };
         self.sign * (u + self.phase)
     }
@@ -81,7 +82,7 @@ pub fn arc_bounds(at: &dyn Fn(f64) -> Vec2, axes: &[Vec2; 2], [from, to]: [f64; 
     let mut out = [at(from), at(from)];
     grow(&mut out, &at(to));
     for (across, along) in axes[1].iter().zip(&axes[0]) {
-        let extreme = across.atan2(*along);
+        let extreme = atan2(*across, *along);
         let first = ((from.min(to) - extreme) / std::f64::consts::PI).ceil() as i64;
         let last = ((from.max(to) - extreme) / std::f64::consts::PI).floor() as i64;
         for n in first..=last.min(first + 1) {

@@ -6,6 +6,7 @@
 
 use super::bezier::{Chain, at};
 use super::plane::{Vec2, dot, length, minus};
+use hlr_exact::elementary::power;
 
 /// Least number of points evaluated on a piece, besides its ends.
 const PLACES: usize = 12;
@@ -59,7 +60,7 @@ fn fit_smooth(
         return;
     }
     // The error of a cubic fit falls with the sixth power of its length.
-    let parts = ((error / tolerance).powf(1.0 / 6.0).ceil() as usize).clamp(2, 16);
+    let parts = (power(error / tolerance, 1.0 / 6.0).ceil() as usize).clamp(2, 16);
     let mut travelled = vec![0.0];
     for w in samples.windows(2) {
         travelled.push(travelled[travelled.len() - 1] + length(&minus(&w[1][0], &w[0][0])));

@@ -4,6 +4,7 @@
 use super::plane::Vec2;
 use hlr_brep::geometry::curve::{Curve, Vec3};
 use hlr_brep::geometry::nurbs::{MOST_DEGREE, basis, find_span};
+use hlr_exact::elementary::{cosh, sin_cos, sinh};
 
 /// The matrix that maps (x, y, z, 1) in the model to (x w, y w, w) on paper.
 #[derive(Clone, Copy, Debug)]
@@ -73,12 +74,12 @@ impl Paper {
         match self {
             Paper::Line => [[f64::NAN; 2]; 2],
             Paper::Ellipse { p, a, b } => {
-                let (s, c) = t.sin_cos();
+                let (s, c) = sin_cos(t);
                 form(p, a, b, [[c, s], [-s, c]])
             }
             Paper::Parabola { p, a, b } => form(p, a, b, [[t * t, t], [2.0 * t, 1.0]]),
             Paper::Hyperbola { p, a, b } => {
-                let (s, c) = (t.sinh(), t.cosh());
+                let (s, c) = (sinh(t), cosh(t));
                 form(p, a, b, [[c, s], [s, c]])
             }
             Paper::Spline { degree: degree @ 0..=3, knots, poles, .. } => on_spline::<4>(*degree, knots, poles, t),

@@ -21,6 +21,7 @@ use crate::lines::simplify::off;
 use crate::lines::{Polyline, View, distance};
 use hlr_accuracy::{CONTOUR_BULGE, CONTOUR_CHORD, CONTOUR_FIT, CONTOUR_FLAT, CONTOUR_MOVE};
 use hlr_brep::geometry::curve::Vec3;
+use hlr_exact::elementary::{atan2, sin_cos};
 
 /// A sharper turn than this is a corner however short its sides; radians.
 const CORNER: f64 = 2.0;
@@ -205,7 +206,7 @@ fn tangents(way: &[Vec2], kept: &[usize], closed: bool, bulge: f64) -> Vec<Optio
             let (a, b) = (neighbour(i, false, m, closed)?, neighbour(i, true, m, closed)?);
             let (one, two) = (minus(&way[kept[i]], &way[kept[a]]), minus(&way[kept[b]], &way[kept[i]]));
             let (l, k) = (length(&one), length(&two));
-            let turn = (one[0] * two[1] - one[1] * two[0]).atan2(dot(&one, &two));
+            let turn = atan2(one[0] * two[1] - one[1] * two[0], dot(&one, &two));
             if l == 0.0 || k == 0.0 || turn.abs() > CORNER {
                 return None;
             }
@@ -214,7 +215,7 @@ fn tangents(way: &[Vec2], kept: &[usize], closed: bool, bulge: f64) -> Vec<Optio
                 return None;
             }
             let share = (turn.abs() * l / (l + k)).max(turn.abs() - most_two).min(most_one).copysign(turn);
-            let (s, c) = share.sin_cos();
+            let (s, c) = sin_cos(share);
             let unit = one.map(|v| v / l);
             Some([c * unit[0] - s * unit[1], s * unit[0] + c * unit[1]])
         })

@@ -5,6 +5,7 @@ use hlr_accuracy::INTERSECTION_MET;
 use hlr_brep::geometry::curve::Curve;
 use hlr_brep::geometry::surface::Surface;
 use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, scaled, sub};
+use hlr_exact::elementary::hypot;
 
 /// Of the radius: files round their numbers.
 const ROUNDING: f64 = 5e-7;
@@ -25,7 +26,7 @@ pub fn conic(faces: [&Face; 2], points: &[Vector], deflection: f64) -> Option<Cu
     let on = |p: &Vector| {
         let arm = sub(p, centre);
         let (x, y) = (dot(&cross(&arm, minor), &up) / square, dot(&cross(major, &arm), &up) / square);
-        let (off, reach) = (dot(&arm, &up).abs() / square.sqrt(), x.hypot(y));
+        let (off, reach) = (dot(&arm, &up).abs() / square.sqrt(), hypot(x, y));
         // Along the arm: at least as far as the nearest point of the ellipse.
         off <= near && (reach - 1.0).abs() / reach * length(&arm) <= near
     };

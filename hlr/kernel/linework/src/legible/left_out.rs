@@ -151,6 +151,6 @@ fn key(lines: &Lines, run: &[&[Segment]], pen: f64, order: &[Kind]) -> Key {
         }
     }
     let [[x0, y0], [x1, y1]] = around.map(|p| p.map(|c| c as i64));
-    let doublings = (1..40).filter(|k| long >= pen * f64::from(*k).exp2()).count() as i32;
+    let doublings = (1..40).filter(|k| long >= pen * (1u64 << k) as f64).count() as i32;
     (order.len() - place, -doublings, [x0, y0, x1, y1])
 }

@@ -6,6 +6,8 @@
 //!   -----+-----            four edges in a cross are two lines
 //! ```
 
+use hlr_exact::elementary::acos;
+
 pub struct Chains {
     pub offsets: Vec<i32>,
     /// Positions in the given edge list, chain by chain.
@@ -104,7 +106,7 @@ fn straight_pairs(edges: &[[i32; 2]], around: &[u32], vertex: i32, straight: &St
         .collect();
     let turn = |i: usize, j: usize| {
         let cosine = -(0..3).map(|k| ways[i][k] * ways[j][k]).sum::<f64>();
-        cosine.clamp(-1.0, 1.0).acos()
+        acos(cosine.clamp(-1.0, 1.0))
     };
     let only = |i: usize| {
         let (mut best, mut second) = ((f64::INFINITY, i), f64::INFINITY);

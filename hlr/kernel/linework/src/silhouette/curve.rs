@@ -1,6 +1,7 @@
 //! The curve along a silhouette: a circle where that is exact, otherwise cubic pieces through its points with their
 //! tangents.
 
+use hlr_exact::elementary::acos;
 use std::f64::consts::{PI, TAU};
 
 use super::TIE;
@@ -81,7 +82,7 @@ pub fn whole_circle(face: &Face, points: &[Vector], normal: &Vector, chord: f64)
     let side = [0, 1, 2].map(|k| if k == least { 1.0 } else { 0.0 });
     let arm = scaled(&unit(&cross(&axis, &side))?, radius);
     let curve = Curve::Ellipse { p: centre, a: arm, b: cross(&axis, &arm) };
-    let count = (PI / (1.0 - chord / radius).max(0.0).acos()).ceil().max(FEWEST);
+    let count = (PI / acos((1.0 - chord / radius).max(0.0))).ceil().max(FEWEST);
     let mut points: Vec<Vector> = (0..count as u32).map(|k| curve.point(TAU * f64::from(k) / count)).collect();
     points.push(points[0]);
     let normals = points.iter().map(|p| unit(&scaled(&sub(p, &sphere), sign))).collect::<Option<_>>()?;

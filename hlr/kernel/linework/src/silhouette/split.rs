@@ -1,5 +1,6 @@
 //! Splits a curve so that the image of no piece lies on itself, and decides the direction of each piece.
 
+use hlr_exact::elementary::atan2;
 use std::cmp::Ordering;
 
 use super::Model;
@@ -41,7 +42,7 @@ pub fn unwound<'a>(model: &Model, run: &'a [(i32, Stretch)], closed: bool) -> Ve
 fn turn(model: &Model, a: &Stretch, b: &Stretch) -> f64 {
     let sight = model.sight(&b.from);
     let (p, q) = (image(a, &sight), image(b, &sight));
-    dot(&cross(&p, &q), &sight).atan2(dot(&p, &q))
+    atan2(dot(&cross(&p, &q), &sight), dot(&p, &q))
 }
 
 fn image(s: &Stretch, sight: &Vector) -> Vector {

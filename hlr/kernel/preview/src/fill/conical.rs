@@ -6,6 +6,7 @@
 //! it.
 
 use super::samples::Grid;
+use hlr_exact::elementary::{atan2, hypot};
 
 /// Of 255: the greatest error of a fan, on the whole and nearly everywhere. The facets of a cone's mesh cause as much.
 const OFF: [f32; 2] = [1.5, 5.0];
@@ -55,7 +56,7 @@ impl Fan {
             }
         }
         // Close to the centre the light shows the facets of the mesh, not the surface.
-        let far = |p: &[f64; 2]| (p[0] - centre[0]).hypot(p[1] - centre[1]) > CLOSE * extent;
+        let far = |p: &[f64; 2]| hypot(p[0] - centre[0], p[1] - centre[1]) > CLOSE * extent;
         let points: Vec<Tone> = points.into_iter().filter(|(p, _)| far(p)).collect();
         let (cut, slices) = slices(&points, centre);
         let least = FEW * points.len() as f64 / SLICES as f64;
@@ -100,7 +101,7 @@ fn rough(grid: &Grid, tried: &[u32], face: u32) -> Option<[f64; 2]> {
         }
         let tone = around.map(|q| f64::from(grid.samples[q].tone));
         let slope = [tone[1] - tone[0], tone[3] - tone[2]];
-        let size = slope[0].hypot(slope[1]);
+        let size = hypot(slope[0], slope[1]);
         if size > 0.05 {
             let (n, at) = (slope.map(|s| s / size), place(grid, p));
             let off = n[0] * at[0] + n[1] * at[1];
@@ -116,7 +117,7 @@ fn rough(grid: &Grid, tried: &[u32], face: u32) -> Option<[f64; 2]> {
 }
 
 fn angle(at: [f64; 2], centre: [f64; 2]) -> f64 {
-    (at[1] - centre[1]).atan2(at[0] - centre[0])
+    atan2(at[1] - centre[1], at[0] - centre[0])
 }
 
 /// The turn from one angle to another, 0 to a full turn.

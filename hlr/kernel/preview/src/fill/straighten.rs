@@ -5,6 +5,7 @@
 //! fitted to its points by least squares. A corner is where two of these lines meet; a node is where the lines of all
 //! borders that end there meet. So corners between the points of the grid are as exact as the runs.
 
+use hlr_exact::elementary::{atan2, cos, hypot, sin};
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
@@ -137,8 +138,8 @@ fn fitted(points: &[Point], exact: bool) -> Line {
         xy += x * y;
         yy += y * y;
     }
-    let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
-    Line { at, way: [angle.cos(), angle.sin()], exact: exact && inner.len() > 2 }
+    let angle = 0.5 * atan2(2.0 * xy, xx - yy);
+    Line { at, way: [cos(angle), sin(angle)], exact: exact && inner.len() > 2 }
 }
 
 /// The corner between two runs.
@@ -180,7 +181,7 @@ fn meeting(node: u32, lines: &[Line], size: [usize; 2]) -> Point {
 }
 
 fn apart(a: Point, b: Point) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+    hypot(a[0] - b[0], a[1] - b[1])
 }
 
 /// Distance of p from the segment a to b.
@@ -188,5 +189,5 @@ fn beside(a: Point, b: Point, p: Point) -> f64 {
     let (w, v) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let square = w[0] * w[0] + w[1] * w[1];
     let t = if square > 0.0 { ((w[0] * v[0] + w[1] * v[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
-    (v[0] - t * w[0]).hypot(v[1] - t * w[1])
+    hypot(v[0] - t * w[0], v[1] - t * w[1])
 }

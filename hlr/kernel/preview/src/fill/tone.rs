@@ -4,6 +4,7 @@
 //! of one coordinate of the picture. The direction of that coordinate is found by a search: along it, points at equal
 //! positions differ least.
 
+use hlr_exact::elementary::sin_cos;
 use rayon::prelude::*;
 
 use super::conical::{Fan, place};
@@ -260,7 +261,7 @@ struct Slices {
 
 /// The slices across a direction, and the sum of squared differences between points and the fitted line of their slice.
 fn slices(tried: &Tried, angle: f64) -> (Slices, f64) {
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = sin_cos(angle);
     let at = |p: &[f64; 2]| p[0] * cos + p[1] * sin;
     let (low, high) =
         tried.points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), (p, ..)| (l.min(at(p)), h.max(at(p))));
