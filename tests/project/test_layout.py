@@ -46,11 +46,11 @@ ABOVE = ("cli", "__main__")
 CRATES = {
     "accuracy": set(),
     "exact": set(),
-    "brep": {"accuracy"},
+    "brep": {"accuracy", "exact"},
     "mesh": {"brep"},
     "visibility": {"accuracy", "exact", "mesh"},
     "linework": {"accuracy", "exact", "brep", "mesh", "visibility"},
-    "preview": {"brep"},
+    "preview": {"exact", "brep"},
     "methods": {"exact"},
     "python": {"exact", "brep", "mesh", "visibility", "linework", "preview", "methods"},
 }
