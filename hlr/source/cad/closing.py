@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from hlr.source.cad.shape_measures import is_inside_out
+
 SEWN = 1e-6
 """Of the size of a shape: borders of faces that lie so close to one another are one edge."""
 
@@ -16,7 +18,7 @@ def as_solid(shape: Any, size: float) -> Any:
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 
     if shape.ShapeType() == Kind.TopAbs_SOLID:
-        return shape.Reversed() if _volume(shape) < 0.0 else shape
+        return shape.Reversed() if is_inside_out(shape) else shape
     if shape.ShapeType() not in (Kind.TopAbs_SHELL, Kind.TopAbs_COMPOUND, Kind.TopAbs_FACE):
         return shape
     solids = _sewn_solids(shape, SEWN * size)
@@ -45,13 +47,4 @@ def _sewn_solids(shape: Any, near: float) -> list[Any]:
     if not all(shell.Closed() for shell in shells):
         return []
     solids = [BRepBuilderAPI_MakeSolid(TopoDS.Shell(shell)).Solid() for shell in shells]
-    return [solid.Reversed() if _volume(solid) < 0.0 else solid for solid in solids]
-
-
-def _volume(shape: Any) -> float:
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GProp import GProp_GProps
-
-    found = GProp_GProps()
-    BRepGProp.VolumeProperties_s(shape, found)
-    return float(found.Mass())
+    return [solid.Reversed() if is_inside_out(solid) else solid for solid in solids]

@@ -14,6 +14,7 @@ from hlr.source.cad.cut_check import CutCheck, has_surfaces
 from hlr.source.cad.occt_collections import new_collection
 from hlr.source.cad.part_shapes import OcctShapes
 from hlr.source.cad.parts import Leaf
+from hlr.source.cad.shape_measures import ShapeMeasures
 from hlr.source.cad.shapes import make_compound, sub_shapes
 
 NEAR = 1e-9
@@ -79,19 +80,11 @@ def _cut(shape: Any, origin: Floats, normal: Floats, name: str) -> Any | None:
 def _box(shape: Any, origin: Floats, normal: Floats) -> Floats | None:
     """(2, 3) the lower and the upper corner of a box around a shape, whose third axis goes from the plane along its
     normal, and whose others are those of `_block`; None where it has no geometry."""
-    from OCP.Bnd import Bnd_Box
-    from OCP.BRepBndLib import BRepBndLib
-    from OCP.gp import gp_Ax3, gp_Trsf
-    from OCP.TopLoc import TopLoc_Location
-
-    move = gp_Trsf()
-    move.SetTransformation(gp_Ax3(_axes(origin, normal)))
-    turned = shape.Moved(TopLoc_Location(move), False)
-    box = Bnd_Box()
-    BRepBndLib.AddOptimal_s(turned, box, False, False)
-    if box.IsVoid():  # of some shapes that are not sound it finds no extent
-        BRepBndLib.Add_s(turned, box, False)
-    return None if box.IsVoid() else np.array(box.Get()).reshape(2, 3)
+    axes = _axes(origin, normal)
+    x, y = (np.array([way.X(), way.Y(), way.Z()]) for way in (axes.XDirection(), axes.YDirection()))
+    rows = np.array([x, y, normal])
+    found = ShapeMeasures(shape).extent(rows)
+    return None if found is None else found - rows @ origin
 
 
 def _axes(origin: Floats, normal: Floats) -> Any:
