@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from support.brep_shapes import bare_triangles
+
 DATA = Path(__file__).parents[1] / "data"
 STEP, HOUSING = DATA / "as1-oc-214.stp", DATA / "housing_body.FCStd"
 BOX = DATA / "freecad" / "box.step"
@@ -108,6 +110,29 @@ def test_the_colour_of_hidden_lines_has_no_effect_where_all_views_are_cut(hlr_re
     done = hlr_real("draw", BOX, "--section", "front", *views, "--hidden-color", "gray", "-o", "{view}.svg")
     note = "hlr: note: --hidden-color has no effect: sections have no hidden lines, unless --hidden asks for them."
     assert (note in done.err) is noted
+
+
+def test_a_part_that_cannot_be_cut_is_drawn_whole_with_a_warning(hlr_real, tmp_path):
+    import cadquery as cq
+    from OCP.BRepTools import BRepTools
+
+    from hlr.source.cad.shapes import make_compound
+
+    solid, bare = (cq.Workplane().box(10, 10, 10).translate((x, 0, 0)).val().wrapped for x in (0, 20))
+    for name, shapes in (("some", [solid, bare_triangles(bare)]), ("none", [bare_triangles(bare)])):
+        BRepTools.Write_s(make_compound(shapes), str(tmp_path / f"{name}.brep"))
+    done = hlr_real("draw", tmp_path / "some.brep", "--section", "front", "-o", "a.svg")
+    assert done.code == 0
+    assert (
+        'hlr: warning: section front: "some:loose" stays whole, because its faces are triangles without surfaces: '
+        "export it as a solid or as a mesh, or name it in uncut.\n" in done.err
+    )
+    strict = hlr_real("draw", tmp_path / "some.brep", "--section", "front", "-o", "b.svg", "--strict")
+    assert strict.code == 2 and "nothing is written, because of --strict" in strict.err
+    refused = hlr_real("draw", tmp_path / "none.brep", "--section", "front", "-o", "b.svg")
+    assert refused.code == 2 and refused.err.count("\n") == 1
+    assert '"none" cannot be cut by the plane of a section, because its faces are triangles' in refused.err
+    assert not (tmp_path / "b.svg").exists()
 
 
 def test_a_plane_that_only_touches_is_told(hlr_real):

@@ -8,6 +8,7 @@ from hlr.errors import SourceError
 from hlr.source.cad import half_space
 from hlr.source.cad.cut_check import CutCheck, has_surfaces, is_closed
 from hlr.source.cad.parts import Leaf
+from support.brep_shapes import bare_triangles
 
 ORIGIN, UP = np.zeros(3), np.array([0.0, 0.0, 1.0])
 
@@ -18,6 +19,16 @@ def block(z=0.0, height=4.0):
 
 def lidless(z=0.0, height=4.0):
     return cq.Workplane(obj=cq.Shape.cast(block(z, height))).faces("not >Z").vals()
+
+
+def lidless_shell():
+    return cq.Shell.makeShell(lidless(-1, 2)).wrapped
+
+
+def doubled():
+    from hlr.source.cad.shapes import make_compound
+
+    return make_compound([block(-1, 2) for _ in range(3)])
 
 
 def test_a_shape_is_closed_where_each_of_its_edges_has_two_faces():
@@ -35,7 +46,7 @@ def test_what_a_cut_must_do():
     assert not check.is_cut(None, False)  # it is lost
     assert not check.is_cut(block(0.5, 3), False)  # some before the plane is left
     assert not check.is_cut(block(-0.5, 1), False)  # some behind it is lost
-    assert not check.is_sound(cq.Shell.makeShell(lidless(-1, 2)).wrapped)
+    assert not check.is_sound(lidless_shell())
     # What was open may be open, and what does not reach the plane may stay, or go.
     assert CutCheck(cq.Shell.makeShell(lidless()).wrapped, ORIGIN, UP, 7.0).is_sound(
         cq.Shell.makeShell(lidless()).wrapped
@@ -59,7 +70,7 @@ def test_vertices_may_lie_off_the_plane_by_some_tolerances_but_not_far():
 @pytest.mark.parametrize("wrong", ["whole", "lost", "failed", "open"])
 def test_a_shape_that_is_not_cut_as_it_should_is_cut_again_more_loosely(monkeypatch, wrong):
     tried, without = [], half_space._without
-    opened = cq.Shell.makeShell(lidless(-1, 2)).wrapped
+    opened = lidless_shell()
 
     def fails_at_first(shape, tool, near):
         tried.append(near)
@@ -73,13 +84,36 @@ def test_a_shape_that_is_not_cut_as_it_should_is_cut_again_more_loosely(monkeypa
     assert tried == pytest.approx([0.0, 1e-8 * np.sqrt(48), 1e-7 * np.sqrt(48)], rel=1e-3)
 
 
+def test_a_shape_that_a_block_does_not_cut_is_cut_by_half_of_space(monkeypatch):
+    tried, without = [], half_space._without
+
+    def fails_with_blocks(shape, tool, near):
+        tried.append(tool)
+        return half_space._FAILED if len(tried) < 5 else without(shape, tool, near)
+
+    monkeypatch.setattr(half_space, "_without", fails_with_blocks)
+    (cut,) = half_space.cut_away([Leaf(block(), "block")], ORIGIN, UP)
+    assert cq.Shape.cast(cut.shape).Volume() == pytest.approx(32.0)
+    assert len(tried) == 5
+
+
+@pytest.mark.parametrize("left", [lambda: block(-1, 2).Reversed(), lidless_shell, lambda: None, doubled])
+def test_what_half_of_space_leaves_is_taken_as_a_smaller_body_alone(monkeypatch, left):
+    tried = []
+    monkeypatch.setattr(
+        half_space, "_without", lambda *_: half_space._FAILED if tried.append(1) or len(tried) < 5 else left()
+    )
+    with pytest.raises(SourceError, match="its shape is not sound"):
+        half_space.cut_away([Leaf(block(), "block")], ORIGIN, UP)
+
+
 def test_a_shape_that_cannot_be_cut_is_refused_and_one_that_is_left_open_is_taken(monkeypatch):
     monkeypatch.setattr(half_space, "_without", lambda shape, tool, near: shape)
     with pytest.raises(
         SourceError, match='"block" cannot be cut by the plane of a section, because its shape is not sound'
     ):
         half_space.cut_away([Leaf(block(), "block")], ORIGIN, UP)
-    opened = cq.Shell.makeShell(lidless(-1, 2)).wrapped
+    opened = lidless_shell()
     monkeypatch.setattr(half_space, "_without", lambda shape, tool, near: opened)
     (cut,) = half_space.cut_away([Leaf(block(), "block")], ORIGIN, UP)
     assert cut.shape.IsSame(opened)
@@ -94,19 +128,7 @@ def test_a_shape_that_an_oblique_plane_misses_stays_the_same_though_its_box_is_c
 
 
 def test_faces_that_are_triangles_without_surfaces_are_refused():
-    from OCP.BRep import BRep_Builder, BRep_Tool
-    from OCP.BRepMesh import BRepMesh_IncrementalMesh
-    from OCP.TopLoc import TopLoc_Location
-    from OCP.TopoDS import TopoDS_Face
-
-    from hlr.source.cad.shapes import make_compound
-
-    solid = cq.Workplane().box(1, 2, 3).val()
-    BRepMesh_IncrementalMesh(solid.wrapped, 0.1)
-    bare = []
-    for face in solid.Faces():
-        bare.append(TopoDS_Face())
-        BRep_Builder().MakeFace(bare[-1], BRep_Tool.Triangulation_s(face.wrapped, TopLoc_Location()))
-    assert has_surfaces(solid.wrapped)
+    solid = cq.Workplane().box(1, 2, 3).val().wrapped
+    assert has_surfaces(solid)
     with pytest.raises(SourceError, match=r'"bare" cannot be cut .* because its faces are triangles without surfaces'):
-        half_space.cut_away([Leaf(make_compound(bare), "bare")], ORIGIN, UP)
+        half_space.cut_away([Leaf(bare_triangles(solid), "bare")], ORIGIN, UP)

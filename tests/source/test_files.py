@@ -12,6 +12,7 @@ import pytest
 from hlr.errors import SourceError
 from hlr.source import open_source
 from hlr.tables.readers import endings
+from support.brep_shapes import bare_triangles
 
 cq = pytest.importorskip("cadquery")
 
@@ -120,21 +121,7 @@ def test_free_edges_of_a_drawn_part_are_a_remark(data, tmp_path):
 
 
 def test_tessellated_shapes_are_meshes(tmp_path, gaps):
-    from OCP.BRep import BRep_Builder, BRep_Tool
-    from OCP.BRepMesh import BRepMesh_IncrementalMesh
-    from OCP.TopLoc import TopLoc_Location
-    from OCP.TopoDS import TopoDS_Face
-
-    from hlr.source.cad.shapes import make_compound
-
-    solid = cq.Workplane().box(1, 2, 3).val()
-    BRepMesh_IncrementalMesh(solid.wrapped, 0.1)
-    bare = []
-    for face in solid.Faces():
-        bare.append(TopoDS_Face())
-        BRep_Builder().MakeFace(bare[-1], BRep_Tool.Triangulation_s(face.wrapped, TopLoc_Location()))
-        bare[-1].Orientation(face.wrapped.Orientation())
-    (part,) = open_source(make_compound(bare)).mesh(0.1, 0.3).parts
+    (part,) = open_source(bare_triangles(cq.Workplane().box(1, 2, 3).val().wrapped)).mesh(0.1, 0.3).parts
     assert not part.brep
     assert len(part.points) == 8
     assert gaps(part) == 0

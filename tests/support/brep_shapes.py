@@ -109,3 +109,21 @@ def terrain(count=14):
     maker = GeomAPI_PointsToBSplineSurface()
     maker.Interpolate(heights, 0.0, dx, 0.0, dy)
     return cq.Face(BRepBuilderAPI_MakeFace(maker.Surface(), 1e-6).Face())
+
+
+def bare_triangles(shape):
+    """The faces of an OpenCASCADE shape as triangles without surfaces, as tessellated STEP has them."""
+    from OCP.BRep import BRep_Builder, BRep_Tool
+    from OCP.BRepMesh import BRepMesh_IncrementalMesh
+    from OCP.TopLoc import TopLoc_Location
+    from OCP.TopoDS import TopoDS_Face
+
+    from hlr.source.cad.shapes import make_compound
+
+    BRepMesh_IncrementalMesh(shape, 0.1)
+    bare = []
+    for face in cq.Shape.cast(shape).Faces():
+        bare.append(TopoDS_Face())
+        BRep_Builder().MakeFace(bare[-1], BRep_Tool.Triangulation_s(face.wrapped, TopLoc_Location()))
+        bare[-1].Orientation(face.wrapped.Orientation())
+    return make_compound(bare)

@@ -12,6 +12,7 @@ from hlr.common.clock import lap
 from hlr.common.types import Progress
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.notes import Note, Noted
+from hlr.errors import counted
 from hlr.image.paper import at_scale
 from hlr.pipeline.section.hatches import with_hatches
 from hlr.pipeline.section.plane import Plane, plane_of
@@ -65,7 +66,8 @@ def draw_sections(
             session.clock["source"] += cut.seconds
             sessions.append(([k], session))
     if noted is not None:
-        noted([note for _, session in sessions for placement in session.placements for note in placement.notes])
+        early = [note for _, session in sessions for placement in session.placements for note in placement.notes]
+        noted([*early, *(note for view, cut in zip(views, cuts, strict=True) if cut for note in _failed(view, cut))])
     found: dict[int, Drawing] = {}
     for numbers, session in sessions:
         for k, draft in zip(numbers, session.drafts(lines_alone=True), strict=True):
@@ -73,7 +75,7 @@ def draw_sections(
             scale = draft.image.placement.scale
             asked = at_scale(options, scale) if options.same_scale else options
             drawing, cut = session.drawing(draft, Request(views[k], asked)), cuts[k]
-            found[k] = drawing if cut is None else _finished(drawing, session, cut, opened, directed(views[k])[0])
+            found[k] = drawing if cut is None else _finished(drawing, session, cut, opened, views[k])
     drawings = [found[k] for k in range(len(views))]
     least = min(drawing.scale for drawing in drawings)
     if options.same_scale and any(drawing.scale > least for drawing in drawings):
@@ -106,14 +108,28 @@ def _of_section(options: Options) -> Options:
     return replace(options, hidden=bool(options.hidden))
 
 
-def _finished(drawing: Drawing, session: Session, cut: _Cut, whole: Source, name: str) -> Drawing:
+def _finished(drawing: Drawing, session: Session, cut: _Cut, whole: Source, view: View) -> Drawing:
     """The drawing with its hatches, and what is to be said about them."""
     started, clock = perf_counter(), dict(drawing.timings)
     drawing = with_hatches(drawing, session, cut.plane, cut.source, whole)
-    drawing = replace(drawing, notes=(*drawing.notes, *_notes(drawing, cut, name)))
+    notes = *drawing.notes, *_failed(view, cut), *_notes(drawing, cut, directed(view)[0])
+    drawing = replace(drawing, notes=notes)
     lap(clock, "linework", started)
     clock["total"] = sum(seconds for stage, seconds in clock.items() if stage != "total")
     return replace(drawing, timings=clock)
+
+
+def _failed(view: View, cut: _Cut) -> list[Note]:
+    """What is said of the parts that OpenCASCADE cannot cut, one note for each reason."""
+    reasons: dict[tuple[str, str], list[str]] = {}
+    for part, error in cut.source.failed.items():
+        reasons.setdefault((error.why, error.cure), []).append(part)
+    notes = []
+    for (why, cure), parts in reasons.items():
+        more = f" ({counted(len(parts) - 1, 'more part')} likewise)" if len(parts) > 1 else ""
+        text = f'"{parts[0]}" stays whole, because {why}{more}: {cure}, or name it in uncut.'
+        notes.append(Note("section-not-cut", f"section {directed(view)[0]}: {text}"))
+    return notes
 
 
 def _notes(drawing: Drawing, cut: _Cut, name: str) -> list[Note]:

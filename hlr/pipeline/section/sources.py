@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from hlr.common.types import Floats
 from hlr.errors import OptionError, SourceError
 from hlr.pipeline.section.plane import Plane
 from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.half_space import UncuttableError
 from hlr.source.cad.parts import Part
 from hlr.source.mesh.mesh_source import MeshSource
 from hlr.source.model import Source
@@ -28,6 +29,7 @@ class CutSource:
     cut      names of those parts of the whole model that the plane cuts
     through  names of those that it goes through, and which stay whole
     uncut    names of all those that stay whole
+    failed   why those stay whole, by name, that OpenCASCADE cannot cut
     """
 
     source: Source
@@ -35,6 +37,7 @@ class CutSource:
     cut: frozenset[str]
     through: frozenset[str] = frozenset()
     uncut: frozenset[str] = frozenset()
+    failed: Mapping[str, UncuttableError] = field(default_factory=dict)
 
 
 def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> CutSource:
@@ -43,7 +46,7 @@ def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> Cut
     uncut: names of parts that stay whole, unless they lie wholly before the plane
 
     Raises:
-        SourceError: it cannot be cut: a mesh that is open, a shape that is not sound, another kind of source.
+        SourceError: it cannot be cut: a mesh that is open, shapes none of which is sound, another kind of source.
         OptionError: nothing would be left.
     """
     if plane.touching:
@@ -70,7 +73,7 @@ def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> Cut
         found = _cut_meshes(source, plane, whole, crossed)
     if found is None:
         raise OptionError(f"the section leaves nothing of {source.name}: move its plane, or leave it out")
-    return replace(found, through=frozenset(through), uncut=frozenset(uncut))
+    return replace(found, through=frozenset(through | found.failed.keys()), uncut=frozenset({*uncut, *found.failed}))
 
 
 def _corners(box: Floats) -> Floats:
@@ -93,6 +96,7 @@ def _cut_brep(source: BrepSource, plane: Plane, whole: list[str], crossed: list[
     shapes, looks = source.prototypes.shapes, source.appearances()
     cutter = _PrototypeCutter(source, plane)
     leaves, cut = [], set()
+    failed: dict[str, UncuttableError] = {}
     kept, through = set(whole), set(crossed)
     for part in source.parts:
         if part.name not in kept and part.name not in through:
@@ -101,10 +105,16 @@ def _cut_brep(source: BrepSource, plane: Plane, whole: list[str], crossed: list[
         move.SetValues(*(float(value) for value in part.transform[:3].ravel()))
         shape = shapes[part.prototype]
         if part.name in through:
-            shape, is_cut = cutter.left_of(part)
-            cut |= {part.name} if is_cut else set()
+            found = cutter.left_of(part)
+            if isinstance(found, UncuttableError):
+                failed[part.name] = found.of(part.name)
+            else:
+                shape, is_cut = found
+                cut |= {part.name} if is_cut else set()
         if shape is not None:
             leaves.append(Leaf(shape.Moved(TopLoc_Location(move), False), part.name, part.color, above=part.above))
+    if failed and not cut:
+        raise next(iter(failed.values()))
     if not leaves:
         return None
     made = build_source(source.name, source.kind, leaves, source.notes)
@@ -122,7 +132,7 @@ def _cut_brep(source: BrepSource, plane: Plane, whole: list[str], crossed: list[
     whose = {part.name: part.product for part in parts}
     built = BrepSource(source.name, source.kind, parts, made.prototypes, made.notes)
     built.choice, built.reading = source.choice, source.reading
-    return CutSource(built, whose, frozenset(cut))
+    return CutSource(built, whose, frozenset(cut), failed=failed)
 
 
 class _PrototypeCutter:
@@ -136,10 +146,13 @@ class _PrototypeCutter:
         self._plane = np.array(plane.point), np.array(plane.normal)
         self._size = float(np.linalg.norm(np.subtract(*source.bounds())))
         self._solids: dict[int, Any] = {}
-        self._found: dict[tuple[float, ...], tuple[Any | None, bool]] = {}
+        self._found: dict[tuple[float, ...], tuple[Any | None, bool] | UncuttableError] = {}
 
-    def left_of(self, part: Part) -> tuple[Any | None, bool]:
-        """What is left of the shape of a part, without its placement; None: nothing. And whether it is cut."""
+    def left_of(self, part: Part) -> tuple[Any | None, bool] | UncuttableError:
+        """What is left of the shape of a part, without its placement; None: nothing. And whether it is cut.
+
+        An error where OpenCASCADE cannot cut it.
+        """
         from hlr.source.cad.closing import as_solid
         from hlr.source.cad.half_space import cut_away
         from hlr.source.cad.parts import Leaf
@@ -153,8 +166,12 @@ class _PrototypeCutter:
             if part.prototype not in self._solids:
                 self._solids[part.prototype] = as_solid(self._shapes[part.prototype], self._size)
             leaf = Leaf(self._solids[part.prototype], part.name)
-            left = cut_away([leaf], height * turned, turned)
-            self._found[key] = (left[0].shape, not left[0].shape.IsSame(leaf.shape)) if left else (None, False)
+            try:
+                left = cut_away([leaf], height * turned, turned)
+            except UncuttableError as error:
+                self._found[key] = error
+            else:
+                self._found[key] = (left[0].shape, not left[0].shape.IsSame(leaf.shape)) if left else (None, False)
         return self._found[key]
 
 

@@ -24,7 +24,7 @@ class CutCheck:
     """What a cut must do to a shape. origin, normal (3,): of the plane, the normal of length 1; size: of the shape."""
 
     def __init__(self, shape: Any, origin: Floats, normal: Floats, size: float) -> None:
-        self._plane = origin, normal
+        self._shape, self._plane = shape, (origin, normal)
         self._near = NEAR * size + min(OFF * _tolerance(shape), MOST_OFF * size)
         self._closed = is_closed(shape)
         heights = self._heights(shape)
@@ -48,6 +48,10 @@ class CutCheck:
     def is_sound(self, left: Any | None) -> bool:
         """Whether what is left is closed where the shape was."""
         return left is None or not self._closed or is_closed(left)
+
+    def is_piece(self, left: Any | None) -> bool:
+        """Whether what is left is a body, as the shape was, and a smaller one."""
+        return left is not None and self._closed and is_closed(left) and 0.0 < volume(left) < volume(self._shape)
 
     def _heights(self, shape: Any) -> Floats:
         origin, normal = self._plane
@@ -75,6 +79,16 @@ def is_closed(shape: Any) -> bool:
     TopExp.MapShapesAndAncestors_s(shape, Kind.TopAbs_EDGE, Kind.TopAbs_FACE, faces)
     alone = [faces.FindKey(i) for i in range(1, faces.Extent() + 1) if faces.FindFromIndex(i).Size() < 2]
     return faces.Extent() > 0 and all(BRep_Tool.Degenerated_s(TopoDS.Edge(edge)) for edge in alone)
+
+
+def volume(shape: Any) -> float:
+    """That its faces enclose; negative where they look inward."""
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    found = GProp_GProps()
+    BRepGProp.VolumeProperties_s(shape, found)
+    return float(found.Mass())
 
 
 def _points(shape: Any) -> Floats:

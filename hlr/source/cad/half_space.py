@@ -24,6 +24,20 @@ LOOSER = (1e-8, 1e-7, 1e-6)
 """Of the size of a shape: how much looser it is cut again where it was not cut as it should."""
 
 
+class UncuttableError(SourceError):
+    """A shape that OpenCASCADE cannot cut. why, cure: what its message says."""
+
+    def __init__(self, name: str, why: str, cure: str) -> None:
+        super().__init__(
+            f'"{name}" cannot be cut by the plane of a section, because {why}: {cure}, or leave the part out.'
+        )
+        self.why, self.cure = why, cure
+
+    def of(self, name: str) -> UncuttableError:
+        """The same of another part of this shape."""
+        return UncuttableError(name, self.why, self.cure)
+
+
 def cut_away(leaves: Sequence[Leaf], origin: Floats, normal: Floats) -> list[Leaf]:
     """The leaves without what lies on the side of a plane to which its normal points.
 
@@ -32,7 +46,7 @@ def cut_away(leaves: Sequence[Leaf], origin: Floats, normal: Floats) -> list[Lea
     leaves: shapes of OpenCASCADE, which stay as they are; origin, normal (3,). Cut shapes have no colours of faces.
 
     Raises:
-        SourceError: OpenCASCADE cannot cut one of them.
+        UncuttableError: OpenCASCADE cannot cut one of them.
     """
     normal = normal / float(np.linalg.norm(normal))
     found = []
@@ -57,10 +71,8 @@ def _cut(shape: Any, origin: Floats, normal: Floats, name: str) -> Any | None:
     if low >= -NEAR * size:
         return None
     if not has_surfaces(shape):
-        raise SourceError(
-            f'"{name}" cannot be cut by the plane of a section, because its faces are triangles without surfaces: '
-            "export it as a solid, or as a mesh."
-        )
+        why = "its faces are triangles without surfaces"
+        raise UncuttableError(name, why, "export it as a solid or as a mesh")
     block = _block(origin, normal, 0.5 * (box[0] + box[1]), 2.0 * size)
     check = CutCheck(shape, origin, normal, size)
     found: list[Any | None] = []
@@ -72,8 +84,11 @@ def _cut(shape: Any, origin: Floats, normal: Floats, name: str) -> Any | None:
             return left
         found.append(left)
     if not found:
-        why = "its shape is not sound: move the plane a little, or leave the part out"
-        raise SourceError(f'"{name}" cannot be cut by the plane of a section, because {why}.')
+        left = _without(shape, _half_space(origin, normal, 2.0 * size), 0.0)
+        if left is not _FAILED and check.is_cut(left, left is shape) and check.is_piece(left):
+            return left
+    if not found:
+        raise UncuttableError(name, "its shape is not sound", "move the plane a little")
     return found[0]
 
 
@@ -105,12 +120,23 @@ def _block(origin: Floats, normal: Floats, middle: Floats, size: float) -> Any:
     return BRepPrimAPI_MakeBox(axes, 2.0 * size, 2.0 * size, size).Shape()
 
 
+def _half_space(origin: Floats, normal: Floats, size: float) -> Any:
+    """All that lies beyond the plane: it cuts a few shapes that `_block` does not. size: half of its face's width."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeHalfSpace
+    from OCP.gp import gp_Ax3, gp_Pln, gp_Pnt
+
+    plane = gp_Pln(gp_Ax3(_axes(origin, normal)))
+    face = BRepBuilderAPI_MakeFace(plane, -size, size, -size, size).Face()
+    return BRepPrimAPI_MakeHalfSpace(face, gp_Pnt(*(origin + normal).tolist())).Solid()
+
+
 _FAILED = object()
 """What is left where OpenCASCADE finds no answer."""
 
 
-def _without(shape: Any, block: Any, near: float) -> Any | None:
-    """The shape minus the block: itself where no face or edge of it is cut or taken away, None where nothing is left.
+def _without(shape: Any, tool: Any, near: float) -> Any | None:
+    """The shape minus the tool: itself where no face or edge of it is cut or taken away, None where nothing is left.
 
     near: what lies so close together counts as one, besides the tolerances of the shape
     """
@@ -118,7 +144,7 @@ def _without(shape: Any, block: Any, near: float) -> Any | None:
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 
     cut = BRepAlgoAPI_Cut()
-    for setter, one in ((cut.SetArguments, shape), (cut.SetTools, block)):
+    for setter, one in ((cut.SetArguments, shape), (cut.SetTools, tool)):
         several = new_collection("shapes")
         several.Append(one)
         setter(several)
