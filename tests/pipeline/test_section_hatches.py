@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import hlr
-from hlr.errors import OptionError, SourceError
+from hlr.errors import OptionError
 from support.sections import HEIGHT, hatch_of, hatched_area, mesh_of, outlines_of, plate, section
 
 
@@ -139,35 +139,6 @@ def test_a_mesh_that_is_turned_inside_out_is_cut_like_any_other():
     points, triangles = mesh_of(plate())
     drawing = section((points, triangles[:, ::-1]))
     assert hatched_area(drawing, 3.0) == pytest.approx(2 * 20 * HEIGHT, rel=0.03)
-
-
-def test_an_open_mesh_is_refused():
-    points, triangles = mesh_of(plate())
-    with pytest.raises(
-        SourceError, match='Part "part" of mesh cannot be cut for a section, because its triangles do not'
-    ):
-        section((points, triangles[1:]))
-
-
-def test_an_open_part_of_an_assembly_may_stay_whole_and_is_not_cut_where_its_box_alone_is():
-    import trimesh
-
-    points, triangles = mesh_of(plate())
-    scene = trimesh.Scene()
-    scene.add_geometry(trimesh.Trimesh(points, triangles), geom_name="block", node_name="block")
-    ball = trimesh.creation.icosphere(2, 10.0)
-    ball.apply_translation((-30, 30, 0))
-    lacking = trimesh.Trimesh(ball.vertices, ball.faces[1:], process=False)
-    scene.add_geometry(lacking, geom_name="ball", node_name="ball")
-    with pytest.raises(
-        SourceError, match=r'Part "ball" .* repair the mesh, keep it whole \(uncut\), or draw the CAD model'
-    ):
-        section(scene, "front", (0, 30, 0))
-    assert section(scene, "front", (0, 0, 0), uncut=("ball",)).section.parts == (0,)
-    # Its box reaches 4 mm before this plane, the ball ends behind it.
-    drawing = section(scene, (1, 1, 0), (7.2, 7.2, 0))
-    assert drawing.section.parts == (0,)
-    assert not [note for note in drawing.notes if note.code == "section-not-hatched"]
 
 
 def test_units_and_axes_of_a_mesh_are_those_of_its_file(tmp_path):

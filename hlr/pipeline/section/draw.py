@@ -136,7 +136,8 @@ def _notes(drawing: Drawing, cut: _Cut, name: str) -> list[Note]:
     """What is said of a section that does not show all that one expects of it."""
     assert drawing.section is not None
     hatched = {cut.source.whose[drawing.parts[k].name] for k in drawing.section.parts}
-    unhatched = sorted(cut.source.cut - hatched)
+    are_open = {cut.source.whose[part] for part, is_cut in cut.source.open.items() if is_cut}
+    unhatched = sorted(are_open or cut.source.cut - hatched)
     if cut.plane.touching:
         text = f"the plane of section {name} only touches the model: nothing is taken away."
     elif not cut.source.cut and not hatched and cut.source.through:
@@ -145,6 +146,8 @@ def _notes(drawing: Drawing, cut: _Cut, name: str) -> list[Note]:
         text = f"the plane of section {name} goes through no part: nothing is hatched."
     elif unhatched:
         several = f"{len(unhatched)} parts that it cuts, such as" if len(unhatched) > 1 else "it cuts"
+        if unhatched[0] in hatched:
+            several += " bodies of"
         text = f'section {name}: {several} "{unhatched[0]}", without a closed surface, and so without a hatch.'
     else:
         return []

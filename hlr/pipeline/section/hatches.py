@@ -83,7 +83,8 @@ def with_hatches(drawing: Drawing, session: Session, plane: Plane, cut: CutSourc
 def _cut_faces(session: Session, plane: Plane, cut: CutSource, paper: _Paper) -> list[_Hatched]:
     """The faces that the plane has cut."""
     point, normal = np.array(plane.point), np.array(plane.normal)
-    faces = cut_faces(session.parts, point, normal, plane.near, lambda name: plane.level.get(cut.whose[name]))
+    bodies = [part for part in session.parts if part.name not in cut.open]
+    faces = cut_faces(bodies, point, normal, plane.near, lambda name: plane.level.get(cut.whose[name]))
     return [
         _Hatched(face, [paper.on(border) for border in face.borders])
         for face in faces

@@ -30,6 +30,7 @@ class CutSource:
     through  names of those that it goes through, and which stay whole
     uncut    names of all those that stay whole
     failed   why those stay whole, by name, that OpenCASCADE cannot cut
+    open     names of those parts of the source that are no bodies, and so have no cut faces; and whether they are cut
     """
 
     source: Source
@@ -38,6 +39,7 @@ class CutSource:
     through: frozenset[str] = frozenset()
     uncut: frozenset[str] = frozenset()
     failed: Mapping[str, UncuttableError] = field(default_factory=dict)
+    open: Mapping[str, bool] = field(default_factory=dict)
 
 
 def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> CutSource:
@@ -46,7 +48,7 @@ def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> Cut
     uncut: names of parts that stay whole, unless they lie wholly before the plane
 
     Raises:
-        SourceError: it cannot be cut: a mesh that is open, shapes none of which is sound, another kind of source.
+        SourceError: it cannot be cut: shapes none of which is sound, another kind of source.
         OptionError: nothing would be left.
     """
     if plane.touching:
@@ -180,9 +182,13 @@ def _cut_meshes(source: MeshSource, plane: Plane, whole: list[str], crossed: lis
 
     origin, normal = np.array(plane.point), np.array(plane.normal)
     parts = {part.name: part for part in source.parts}
-    left_over = {name: cut_mesh(parts[name], origin, normal, source.name, len(parts) == 1) for name in crossed}
-    gone = {name: None for name in parts if name not in whole and name not in left_over}
-    left = source.with_meshes({**left_over, **gone})
+    cut = {name: cut_mesh(parts[name], origin, normal, plane.near) for name in crossed}
+    gone = [name for name in parts if name not in whole and name not in cut]
+    pieces = {name: [(piece.points, piece.triangles) for piece in cut.get(name, ())] for name in [*cut, *gone]}
+    left, whose = source.with_pieces(pieces)
     if not left.names():
         return None
-    return CutSource(left, {name: name for name in left.names()}, frozenset(crossed))
+    parts_of = {name: part for name, (part, _) in whose.items()}
+    found = {name: cut[part][k] for name, (part, k) in whose.items() if part in cut}
+    are_open = {name: piece.cut for name, piece in found.items() if not piece.closed}
+    return CutSource(left, parts_of, frozenset(crossed), open=are_open)

@@ -1,43 +1,78 @@
-"""Meshes cut by a plane, by manifold3d: what lies on one side of it is taken away, and bodies are closed there."""
+"""Meshes cut by a plane: what lies on one side of it is taken away. Closed bodies are closed there, by manifold3d."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from hlr.common.types import Floats, Ints
-from hlr.errors import SourceError
+from hlr.source.mesh.clipping import clipped
+from hlr.source.mesh.closed import of_closed_bodies
 from hlr.source.model import PartMesh
 
 
-def cut_mesh(
-    part: PartMesh, origin: Floats, normal: Floats, file: str, alone: bool = True
-) -> tuple[Floats, Ints] | None:
-    """Points (n, 3) and triangles (m, 3) of a part without what lies on the side to which the normal points.
+@dataclass(frozen=True, slots=True, eq=False)
+class MeshPiece:
+    """What a plane leaves of some bodies of a part.
 
-    origin, normal (3,): of the plane, the normal of length 1; file: what the source is called;
-    alone: the part is all of it. None: nothing is left.
+    points (n, 3), triangles (m, 3); closed: they have an inside; cut: the plane goes through them, or between them
+    """
 
-    Raises:
-        SourceError: the part is not closed, so that it has no inside.
+    points: Floats
+    triangles: Ints
+    closed: bool
+    cut: bool
+
+
+def cut_mesh(part: PartMesh, origin: Floats, normal: Floats, near: float) -> list[MeshPiece]:
+    """A part without what lies on the side to which the normal points: its closed bodies, and those that are open.
+
+    origin, normal (3,): of the plane, the normal of length 1; near: what is no farther from it lies on it, model units
+    """
+    # Numbers near zero lose nothing where the plane is set against them.
+    middle = 0.5 * (part.points.min(axis=0) + part.points.max(axis=0))
+    points, triangles = part.points - middle, part.triangles
+    outward = triangles
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    if float((np.cross(a, b) * c).sum()) < 0.0:  # turned inside out
+        outward = np.ascontiguousarray(triangles[:, ::-1])
+    body, joined = _body(points, outward)
+    closed = np.ones(len(triangles), bool)
+    if body is None:
+        closed = of_closed_bodies(joined, len(points))
+        body = _body(points, outward[closed])[0] if closed.any() else None
+        closed &= body is not None
+    heights = points @ normal + float((middle - origin) @ normal)
+    pieces = []
+    for rows, is_closed in ((closed, True), (~closed, False)):
+        if not rows.any():
+            continue
+        reach = heights[triangles[rows]]
+        if body is not None and is_closed:
+            left = body.trim_by_plane((-normal).tolist(), float((middle - origin) @ normal)).to_mesh64()
+            found = np.asarray(left.vert_properties)[:, :3], np.asarray(left.tri_verts).astype(np.int32)
+        else:
+            found = clipped(points, triangles[rows], normal, heights, near)
+        if len(found[1]):
+            pieces.append(
+                MeshPiece(found[0] + middle, found[1], is_closed, bool(reach.min() < -near < near < reach.max()))
+            )
+    return pieces
+
+
+def _body(points: Floats, triangles: Ints) -> tuple[Any | None, Ints]:
+    """The body that triangles (m, 3) close; None where they do not, or are but the hollows of another one.
+
+    And their corners, those in one place as one.
     """
     from manifold3d import Manifold, Mesh64
 
-    # Numbers near zero lose nothing where the plane is set against them.
-    middle = 0.5 * (part.points.min(axis=0) + part.points.max(axis=0))
-    mesh = Mesh64(part.points - middle, part.triangles.astype(np.uint64))
+    mesh = Mesh64(points, triangles.astype(np.uint64))
     mesh.merge()
     body = Manifold(mesh)
-    if body.status().name == "NoError" and body.volume() < 0.0:  # turned inside out
-        mesh = Mesh64(part.points - middle, part.triangles[:, ::-1].astype(np.uint64, order="C"))
-        mesh.merge()
-        body = Manifold(mesh)
-    if body.status().name != "NoError" or body.is_empty():
-        whole = "" if alone else "keep it whole (uncut), "
-        raise SourceError(
-            f'Part "{part.name}" of {file} cannot be cut for a section, because its triangles do not close: repair the '
-            f"mesh, {whole}or draw the CAD model that it was made of."
-        )
-    left = body.trim_by_plane((-normal).tolist(), float((middle - origin) @ normal)).to_mesh64()
-    if not len(left.tri_verts):
-        return None
-    return np.asarray(left.vert_properties)[:, :3] + middle, np.asarray(left.tri_verts).astype(np.int32)
+    joined = np.arange(len(points), dtype=np.int32)
+    joined[np.asarray(mesh.merge_from_vert, np.int64)] = np.asarray(mesh.merge_to_vert, np.int64)
+    is_body = body.status().name == "NoError" and not body.is_empty() and body.volume() > 0.0
+    return body if is_body else None, joined[triangles]

@@ -147,24 +147,32 @@ class MeshSource:
         """The parts that are drawn."""
         return self._parts
 
-    def with_meshes(self, meshes: Mapping[str, tuple[Floats, Ints] | None]) -> MeshSource:
-        """The same source with other points and triangles of some parts; None: the part is left out.
+    def with_pieces(
+        self, pieces: Mapping[str, Sequence[tuple[Floats, Ints]]]
+    ) -> tuple[MeshSource, dict[str, tuple[str, int]]]:
+        """The same source with other points and triangles of some parts: as many parts as there are pieces of one.
 
-        Parts with other triangles have one colour each.
+        They have one colour each. Also, by the name of each part, that of the whole part, and the number of the piece.
         """
         changed = copy(self)
         changed._drawn, changed._boxes = [], None
+        names = {part.name for part in self._parts}
+        whose = {part.name: (part.name, 0) for part in self._parts if part.name not in pieces}
         for part, instance, mesh in self._drawn:
-            other = meshes.get(part.name, ())
-            if other:
-                cleaned = clean_mesh(*other)
-                whole = Instance(part.name, 0, np.eye(4), instance.color)
-                made = replace(_part(part.name, cleaned, whole), precision=max(part.precision, cleaned.precision))
-                changed._drawn.append((made, whole, cleaned))
-            elif other is not None:
+            if part.name not in pieces:
                 changed._drawn.append((part, instance, mesh))
+            for k, piece in enumerate(pieces.get(part.name, ())):
+                cleaned = clean_mesh(*piece)
+                if not len(cleaned.triangles):
+                    continue
+                name = part.name if part.name not in whose else unique_names([*names, part.name])[-1]
+                names.add(name)
+                whose[name] = part.name, k
+                whole = Instance(name, 0, np.eye(4), instance.color)
+                made = replace(_part(name, cleaned, whole), precision=max(part.precision, cleaned.precision))
+                changed._drawn.append((made, whole, cleaned))
         changed._parts = [part for part, _, _ in changed._drawn]
-        return changed
+        return changed, whose
 
     def transparent(self) -> bool:
         """Whether the file has colours: only then can a part be transparent."""
