@@ -1,14 +1,19 @@
-"""Sections on the command line: `--section` and `--uncut` of `hlr draw`."""
+"""Sections on the command line: `--section` and `--uncut` of `hlr draw` and `hlr plan`."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from hlr.errors import OptionError
 
 from .parameters import SectionPlane
+
+if TYPE_CHECKING:
+    from hlr.request.options import View
+
+    from .parameters import Vector3
 
 
 def _as_table(_ctx: click.Context, _parameter: click.Parameter, given: tuple[tuple[str, Any], ...]) -> dict[str, Any]:
@@ -36,3 +41,14 @@ SECTION = (
         help="--section: leave these parts whole, such as bolts, shafts and ribs. May be repeated.",
     ),
 )
+
+
+def with_sections(views: tuple[View, ...], sections: dict[str, Any], eye: Vector3 | None) -> tuple[View, ...]:
+    """The views that were asked for, and those that are cut. Raises OptionError where one is seen from an eye."""
+    if not sections:
+        return views
+    if eye is not None:
+        raise OptionError("a section is seen in parallel projection: leave out --eye, or --section")
+    from hlr.request.section import with_sections as with_cut_ones
+
+    return with_cut_ones(views, sections)

@@ -214,7 +214,6 @@ ROWS: tuple[Row, ...] = (
     Row(
         ("uncut",),
         _without("section", "is for --section: leave it out, or say what is cut"),
-        "draw",
         refused=True,
     ),
     Row(("view", "no_cache"), _without("source", "is for a model: name one, or leave it out"), "methods", refused=True),

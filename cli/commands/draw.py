@@ -18,7 +18,7 @@ from ..drawn_files import Targets, targets_of, to_stdout, write
 from ..guard import start
 from ..meter import meter
 from ..parameters import Duration, Vector3
-from ..section_options import SECTION
+from ..section_options import SECTION, with_sections
 from ..streams import Output, result_only
 from ..style_options import STYLE, style_from
 from ..telling import summary, tell_early, tell_notes, tell_plan, tell_report, tell_written, written
@@ -143,7 +143,7 @@ def draw(
     told = {"as_json": as_json, "quiet": quiet, "time_limit": time_limit}
     if arrange is not None:
         if views:
-            views = _with_sections(views, sections, chosen["eye"])
+            views = with_sections(views, sections, chosen["eye"])
         _check_arranged(all_pages or names_a_page(source, chosen["page"]), explain)
         request = request_of(style=style_from(chosen), **chosen)
         draw_arranged_page(source, outputs, arrange, views, format, request, printed, told)
@@ -155,7 +155,7 @@ def draw(
         draw_document_pages(source, outputs, page, format, asked, told)
         return
     started = time.perf_counter() - time.process_time()  # the time of loading counts as well
-    views = _with_sections(views, sections, chosen["eye"])
+    views = with_sections(views, sections, chosen["eye"])
     names = names_of(views, chosen["eye"])
     views = views or ("iso",)
     style = style_from(chosen)
@@ -190,17 +190,6 @@ def draw(
             out.put(summary(drawings, targets))
     for drawing, row in zip(drawings, targets, strict=True):
         tell_written(written(drawing, row), quiet)
-
-
-def _with_sections(views: tuple[View, ...], sections: dict[str, Any], eye: Vector3 | None) -> tuple[View, ...]:
-    """The views that were asked for, and those that are cut. Raises OptionError where one is seen from an eye."""
-    if not sections:
-        return views
-    if eye is not None:
-        raise OptionError("a section is seen in parallel projection: leave out --eye, or --section")
-    from hlr.request.section import with_sections
-
-    return with_sections(views, sections)
 
 
 def _check_arranged(of_document: bool, explain: bool) -> None:

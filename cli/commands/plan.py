@@ -11,6 +11,7 @@ from hlr.errors import OptionError
 from ..document_pages import names_a_page
 from ..guard import start
 from ..meter import meter
+from ..section_options import SECTION, with_sections
 from ..streams import result_only
 from ..verb import Verb
 from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, TIME_LIMIT, VIEW, WINDOW, names_of, options
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 @click.command(cls=Verb)
 @click.argument("source")
 @VIEW
-@options(*CHOICE, *LINES, *SIZE, WINDOW, *CARE, TIME_LIMIT, *CAMERA, *RUN)
+@options(*CHOICE, *LINES, *SECTION, *SIZE, WINDOW, *CARE, TIME_LIMIT, *CAMERA, *RUN)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
 def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **chosen: Any) -> None:
@@ -32,11 +33,14 @@ def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **
     \b
       hlr plan part.step
       hlr plan part.step --view front --perspective --json
+      hlr plan part.step --section front
 
-    The model is read and meshed; visibility is not computed and nothing is drawn. `hlr draw --explain` adds what each
-    step has cost.
+    The model is read, cut for a section, and meshed; visibility is not computed and nothing is drawn. `hlr draw
+    --explain` adds what each step has cost.
     """
     time_limit = chosen.pop("time_limit")
+    views = with_sections(views, chosen["section"], chosen["eye"])
+    chosen["section"] = chosen["section"] or None
     names_of(views, chosen["eye"])
     if names_a_page(source, page := chosen["page"]):
         raise OptionError(f"{page} is no sheet, and pages of a document have no plan: hlr draw draws them")

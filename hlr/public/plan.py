@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,8 +10,7 @@ from hlr.common.keywords import expect_record
 from hlr.common.threads import at_most
 from hlr.common.types import Progress
 from hlr.drawing.line import Bounds
-from hlr.errors import OptionError
-from hlr.pipeline.session import Session
+from hlr.pipeline.session import Draft, Session
 from hlr.request.check import checked, checked_views
 from hlr.request.effect import Decision
 from hlr.request.options import Options, View
@@ -35,6 +34,8 @@ def plan_views(
 ) -> list[ViewPlan]:
     """One plan per view, of the drawing that `hlr.draw_views` would make of the same arguments.
 
+    For a section the model is cut: the plan is that of what its plane leaves, and says how many parts it cuts.
+
     Raises SourceError, ViewError, OptionError.
 
     >>> import hlr
@@ -44,24 +45,39 @@ def plan_views(
     '1 curved face may show one'
     """
     options = checked(expect_record(Options, options, "plan_views"))
-    if options.section is not None:
-        raise OptionError("a plan is that of a whole model: leave out section")
     views = checked_views(views, options)
     if not views:
         return []
+    found: dict[int, ViewPlan] = {}
     with at_most(options.threads):
+        for numbers, session, drafts in _sittings(source, views, options, progress):
+            for number, draft in zip(numbers, drafts, strict=True):
+                image = session.shown(draft)
+                draft.planner.on("window")
+                if options.window is not None:
+                    with draft.planner.deciding():
+                        flat = image.projected()[:, :2] * image.placement.per_model
+                    decide_cut(flat, Bounds(*options.window), draft.planner)
+                session.plan(draft, image)
+                found[number] = ViewPlan(image.camera.name, draft.planner.decisions())
+    return [found[number] for number in range(len(views))]
+
+
+def _sittings(
+    source: Any, views: Sequence[View], options: Options, progress: Progress | None
+) -> Iterator[tuple[Sequence[int], Session, list[Draft]]]:
+    """What is drawn of the source and of what sections leave of it: numbers of views, and their drafts."""
+    if options.section is None:
         session = Session(source, views, options, progress)
-        out = []
-        for draft in session.drafts(lines_alone=True):
-            image = session.shown(draft)
-            draft.planner.on("window")
-            if options.window is not None:
-                with draft.planner.deciding():
-                    flat = image.projected()[:, :2] * image.placement.per_model
-                decide_cut(flat, Bounds(*options.window), draft.planner)
-            session.plan(draft, image)
-            out.append(ViewPlan(image.camera.name, draft.planner.decisions()))
-    return out
+        yield range(len(views)), session, session.drafts(lines_alone=True)
+        return
+    from hlr.pipeline.section.draw import sittings_of
+    from hlr.request.section import check_sections
+    from hlr.source.selection import open_selected
+
+    check_sections(options.section, views)
+    for sitting in sittings_of(open_selected(source, options), views, options, progress):
+        yield sitting.numbers, sitting.session, sitting.drafts()
 
 
 __all__ = ["ViewPlan", "plan_views"]

@@ -188,6 +188,10 @@ def _pyramid(f: Facts, _o: Options) -> Answer:
     return deep, f"{what}: much may lie behind" if deep else f"{what}: looking would cost more than it saves"
 
 
+def _section(f: Facts, _o: Options) -> Answer:
+    return True, f"asked for: its plane cuts {_count(f.cut, 'part')}"
+
+
 def _glass(f: Facts, options: Options) -> Answer:
     if f.opacity >= 1.0:
         return False, "all is opaque"
@@ -221,6 +225,7 @@ def _colours(_f: Facts, options: Options) -> Answer:
 _BEFORE: tuple[Effect, ...] = (
     Effect("B-rep reader", ASKED, _brep, ("brep_parts",)),
     Effect("mesh reader", ASKED, _mesh, ("mesh_parts",)),
+    Effect("section", ASKED, _section, ("cut_parts",)),
     Effect("fine mesh", SCENE, _fine),
     Effect("meshing of curved faces", SCENE, _curved, ("curved_triangles",)),
     Effect("triangulation of planar faces", SCENE, _planar, ("planar_triangles",)),

@@ -26,6 +26,7 @@ class Facts(NamedTuple):
     """What the stages have found out. Each effect reads the few facts that its stage fills in.
 
     kind           of the source (`hlr.source.model.Source.kind`)
+    cut            number of parts that the plane of a section cuts
     parts, groups  numbers of parts, and of groups: surfaces that the visibility pass treats as one
     curved, planar numbers of curved and of planar faces
     faces          the model has faces with equations: a B-rep
@@ -48,6 +49,7 @@ class Facts(NamedTuple):
     """
 
     kind: str = ""
+    cut: int = 0
     parts: int = 0
     groups: int = 0
     curved: int = 0

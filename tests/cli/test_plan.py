@@ -35,6 +35,31 @@ def test_several_views_are_named(hlr_real):
     assert done.out.startswith("front\n") and "\n\ntop\n" in done.out
 
 
+def test_the_plan_of_a_section(hlr_real):
+    done = hlr_real("plan", MODEL, "--view", "iso", "--section", "front")
+    assert done.code == 0
+    iso, front = done.out.split("\n\nfront")
+    assert "\nsection " not in iso and "\nsection " in front
+    assert "asked for: its plane cuts 1 part" in front and "1 cut parts" in front
+    done = hlr_real("plan", MODEL, "--section", "front", "--uncut", "*", "--json")
+    ((plan,),) = [[each["plan"] for each in json.loads(done.out)["plans"]]]
+    (told,) = [each for each in plan if each["effect"] == "section"]
+    assert told["reason"] == "asked for: its plane cuts 0 parts"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--uncut", "bolt"], "--uncut is for --section: leave it out, or say what is cut"),
+        (["--section", "front", "--eye", "1,2,3"], "a section is seen in parallel projection: leave out --eye"),
+        (["--section", "front@900"], "section front at y = 900 misses the model"),
+    ],
+)
+def test_sections_that_cannot_be_planned(hlr_real, arguments, message):
+    done = hlr_real("plan", MODEL, *arguments)
+    assert done.code == 2 and done.out == "" and message in done.err and done.err.count("\n") == 1
+
+
 def test_a_page_of_a_document_has_no_plan(hlr_real):
     done = hlr_real("plan", MODEL.parents[3] / "data/trolley_assembly.FCStd", "--page", "Page")
     assert (done.code, done.err) == (

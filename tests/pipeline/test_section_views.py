@@ -232,9 +232,26 @@ def test_a_model_is_compared_with_its_section(tmp_path):
     assert not hlr.compare.compare(section(path, where=8), path, view="front").same
 
 
-def test_a_plan_is_that_of_a_whole_model():
-    with pytest.raises(OptionError, match="a plan is that of a whole model: leave out section"):
-        hlr.plan_views(plate(), ["front"], hlr.Options(section=True))
+def test_a_plan_of_a_section_is_that_of_its_drawing_and_says_what_is_cut():
+    row = [cq.Workplane().box(10, 10, 10).translate((20 * k, 0, 0)) for k in range(3)]
+    options = hlr.Options(section={"top": 1.0, "left": (20, 0, 0)}, scale=1)
+    views = ["top", "front", "left"]
+    plans = hlr.plan_views(row, views, options)
+    assert [plan.view for plan in plans] == views
+    told = [next((each for each in plan.decisions if each.name == "section"), None) for plan in plans]
+    assert [each and (each.on, each.origin, each.reason, each.counts["cut_parts"]) for each in told] == [
+        (True, "asked", "asked for: its plane cuts 3 parts", 3),
+        None,
+        (True, "asked", "asked for: its plane cuts 1 part", 1),
+    ]
+    assert told[0].seconds > 0.0
+    for plan, drawing in zip(plans, hlr.draw_views(row, views, options), strict=True):
+        drawn = {each.name: (each.on, each.reason) for each in drawing.plan}
+        assert {each.name: (each.on, each.reason) for each in plan.decisions} == drawn
+    with pytest.raises(OptionError, match="section front at y = 9 misses the model"):
+        hlr.plan_views(row, ["front"], hlr.Options(section=9))
+    with pytest.raises(OptionError, match="section front is none of the views, top: add it to them"):
+        hlr.plan_views(row, ["top"], hlr.Options(section={"front": True}))
 
 
 def test_a_page_and_a_drawing_within_a_time_cut_the_model_once_and_forget_it(monkeypatch):

@@ -17,8 +17,9 @@ from hlr.image.paper import at_scale
 from hlr.pipeline.section.hatches import with_hatches
 from hlr.pipeline.section.plane import Plane, plane_of
 from hlr.pipeline.section.sources import CutSource, cut_source
-from hlr.pipeline.session import Session
+from hlr.pipeline.session import Draft, Session
 from hlr.request.directions import directed
+from hlr.request.effect import Facts
 from hlr.request.options import Options, Request, View
 from hlr.request.section import place_of
 from hlr.source.cad.brep_source import BrepSource
@@ -34,6 +35,28 @@ class _Cut:
     plane: Plane
     source: CutSource
     seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class Sitting:
+    """Views that are drawn of one source: all those that are not cut, or a section.
+
+    numbers: of the views; cut: None where they are not cut
+    """
+
+    numbers: list[int]
+    session: Session
+    cut: _Cut | None
+
+    def drafts(self) -> list[Draft]:
+        """One per view, as of `Session.drafts`; that a view is cut is one of its decisions."""
+        drafts = self.session.drafts(lines_alone=True)
+        if self.cut is not None:
+            parts = len(self.cut.source.cut)
+            for draft in drafts:
+                draft.planner.on("section", Facts(cut=parts))
+                draft.planner.spent("section", self.cut.seconds, cut_parts=parts)
+        return drafts
 
 
 _KNOWN: WeakKeyDictionary[Source, dict[Any, _Cut]] = WeakKeyDictionary()
@@ -52,29 +75,20 @@ def draw_sections(
     views, options: checked. Raises as that, and OptionError where a plane cuts nothing or leaves nothing.
     """
     opened = open_selected(source, options)
-    if progress is not None:
-        progress("section", 0.0)
-    cuts = [_cut_for(view, opened, options) for view in views]
-    plain = [k for k, cut in enumerate(cuts) if cut is None]
-    sessions: list[tuple[list[int], Session]] = []
-    if plain:
-        alone = replace(options, section=None)
-        sessions.append((plain, Session(opened, [views[k] for k in plain], alone, progress)))
-    for k, cut in enumerate(cuts):
-        if cut is not None:
-            session = Session(cut.source.source, [views[k]], _of_section(options), progress)
-            session.clock["source"] += cut.seconds
-            sessions.append(([k], session))
+    sittings = sittings_of(opened, views, options, progress)
     if noted is not None:
-        early = [note for _, session in sessions for placement in session.placements for note in placement.notes]
-        noted([*early, *(note for view, cut in zip(views, cuts, strict=True) if cut for note in _failed(view, cut))])
+        noted(
+            [note for sitting in sittings for placement in sitting.session.placements for note in placement.notes]
+            + [note for sitting in sittings if sitting.cut for note in _failed(views[sitting.numbers[0]], sitting.cut)]
+        )
     found: dict[int, Drawing] = {}
-    for numbers, session in sessions:
-        for k, draft in zip(numbers, session.drafts(lines_alone=True), strict=True):
+    for sitting in sittings:
+        session, cut = sitting.session, sitting.cut
+        for k, draft in zip(sitting.numbers, sitting.drafts(), strict=True):
             session.progress("visibility", len(found) / len(views))
             scale = draft.image.placement.scale
             asked = at_scale(options, scale) if options.same_scale else options
-            drawing, cut = session.drawing(draft, Request(views[k], asked)), cuts[k]
+            drawing = session.drawing(draft, Request(views[k], asked))
             found[k] = drawing if cut is None else _finished(drawing, session, cut, opened, views[k])
     drawings = [found[k] for k in range(len(views))]
     least = min(drawing.scale for drawing in drawings)
@@ -83,6 +97,26 @@ def draw_sections(
     if progress is not None:
         progress("linework", 1.0)
     return drawings
+
+
+def sittings_of(
+    opened: Source, views: Sequence[View], options: Options, progress: Progress | None = None
+) -> list[Sitting]:
+    """What is drawn of a source and of what planes leave of it. Raises as `draw_sections`."""
+    if progress is not None:
+        progress("section", 0.0)
+    cuts = [_cut_for(view, opened, options) for view in views]
+    plain = [k for k, cut in enumerate(cuts) if cut is None]
+    sittings: list[Sitting] = []
+    if plain:
+        alone = replace(options, section=None)
+        sittings.append(Sitting(plain, Session(opened, [views[k] for k in plain], alone, progress), None))
+    for k, cut in enumerate(cuts):
+        if cut is not None:
+            session = Session(cut.source.source, [views[k]], _of_section(options), progress)
+            session.clock["source"] += cut.seconds
+            sittings.append(Sitting([k], session, cut))
+    return sittings
 
 
 def _cut_for(view: View, source: Source, options: Options) -> _Cut | None:
