@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 import re
+from typing import TYPE_CHECKING, cast
 
 import click
 
 from hlr.tables.sheets import papers
+
+if TYPE_CHECKING:
+    from hlr.request.options import Steps
 
 Vector3 = tuple[float, float, float]
 
@@ -45,24 +49,30 @@ class ViewName(click.ParamType[str | Vector3]):
         return vector
 
 
-class SectionPlane(click.ParamType[tuple[str, bool | float | Vector3]]):
-    """A view that is cut, and where: front is front@middle; front@12.5, at a coordinate; front@0,12.5,0, at a point."""
+class SectionPlane(click.ParamType["tuple[str, bool | float | Vector3 | Steps]"]):
+    """A view that is cut, and where: front is front@middle; front@12.5, at a coordinate; front@0,12.5,0, at a point.
+
+    front@12.5,30:40 steps: from 30 on it is at 40.
+    """
 
     name = "VIEW[@PLACE]"
 
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[str, bool | float | Vector3]:
-        """The name of the view, or its direction as text, and True, a coordinate or a point."""
+    ) -> tuple[str, bool | float | Vector3 | Steps]:
+        """The name of the view, or its direction as text, and True, a coordinate, a point or steps."""
         text, at, where = str(value).partition("@")
         view = ViewName().convert(text, param, ctx)
         name = view if isinstance(view, str) else ",".join(f"{c:g}" for c in view)
         if not at or where.strip().lower() == "middle":
             return name, True
-        place = vector_of(where) if "," in where else number_of(where)
+        place = _steps_of(where) if ":" in where else vector_of(where) if "," in where else number_of(where)
         if place is None:
             self.fail(
-                f"{value!r} names no plane: give {text}, {text}@12.5 in millimetres, or {text}@0,12.5,0", param, ctx
+                f"{value!r} names no plane: give {text}, {text}@12.5 in millimetres, or {text}@0,12.5,0, or, where it "
+                f"steps, {text}@12.5,30:40",
+                param,
+                ctx,
             )
         return name, place
 
@@ -177,6 +187,16 @@ class Pixels(click.ParamType[tuple[int, int]]):
         if match is None or "0" in (match[1].lstrip("0") or "0", match[2].lstrip("0") or "0"):
             self.fail(f"{value!r} is not a size in pixels such as 1920x1080", param, ctx)
         return int(match[1]), int(match[2])
+
+
+def _steps_of(text: str) -> Steps | None:
+    """A number, then pairs of numbers with a colon between them, all with commas between them; or None."""
+    first, *rest = text.split(",")
+    numbers = [number_of(first), *(number_of(each) for step in rest for each in step.split(":"))]
+    if any(number is None for number in numbers) or any(step.count(":") != 1 for step in rest):
+        return None
+    found = cast("list[float]", numbers)
+    return (found[0], *zip(found[1::2], found[2::2], strict=True))
 
 
 def vector_of(text: str) -> Vector3 | None:

@@ -9,11 +9,12 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """The plane of a section.
+    """The plane of a section, or its planes where it steps.
 
-    point   on the plane, in model coordinates
-    normal  a direction in the model, of length 1, toward the viewer: what lay on its side was taken away
-    parts   those that the plane cuts, whose cut faces are hatched: indices into Drawing.parts
+    point    on the plane, or on the first of them, in model coordinates
+    normal   a direction in the model, of length 1, toward the viewer: what lay on its side was taken away
+    parts    those that the plane cuts, whose cut faces are hatched: indices into Drawing.parts
+    corners  of each step two points in model coordinates: on the edge of the plane before it, and of that behind it
 
     >>> import hlr
     >>> drawing = hlr.draw("part.step", view="front", section=True)
@@ -24,3 +25,4 @@ class Section:
     point: Vector
     normal: Vector
     parts: tuple[int, ...]
+    corners: tuple[Vector, ...] = ()

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from hlr.drawing.view_marks import FONT, LETTER, Point, SectionEnd, section_ends
 
@@ -25,6 +26,9 @@ ABOVE = 3.0
 REACH = BEYOND + 1.5 * LETTER
 """Millimetres from a view to the farthest point of its marks."""
 
+JOG = 2.5
+"""Millimetres: how long a cutting line is thick on both sides of a corner, where it jogs."""
+
 CHAIN = (6.0, 1.0, 1.0, 1.0)
 """Millimetres: dashes and gaps of a cutting line."""
 
@@ -38,13 +42,14 @@ class SectionMark:
 
     letter  A for the section A-A
     name    the middle of that name, above the view: millimetres from the lower left corner of the page
-    line    the cutting line, from end to end, in the same millimetres; None where no view sees the plane from its edge
+    line    the cutting line from end to end, with its corners where the plane steps, in the same millimetres; None
+            where no view sees the plane from its edge
     back    the direction on the page from the line to the viewer of the section, of length 1
     """
 
     letter: str
     name: Point
-    line: tuple[Point, Point] | None = None
+    line: tuple[Point, ...] | None = None
     back: Point = (0.0, 0.0)
 
     @property
@@ -74,13 +79,17 @@ def shapes_of(mark: SectionMark) -> MarkShapes:
     texts = [(mark.name, mark.title)]
     if mark.line is None:
         return MarkShapes([], [], [], texts)
-    ends: Sequence[SectionEnd] = section_ends(mark.line, mark.back, TAIL, ASIDE)
-    a, b = mark.line
-    inner = _toward(a, b), _toward(b, a)
-    wide = [(a, inner[0]), (b, inner[1]), *(end.tail for end in ends)]
-    return MarkShapes(
-        wide, [inner], [end.arrow for end in ends], [*((end.letter, mark.letter) for end in ends), *texts]
-    )
+    line = mark.line
+    ends: Sequence[SectionEnd] = [
+        section_ends(line[:2], mark.back, TAIL, ASIDE)[0],
+        section_ends(line[-2:], mark.back, TAIL, ASIDE)[1],
+    ]
+    inner = _toward(line[0], line[1], BEYOND), _toward(line[-1], line[-2], BEYOND)
+    wide = [(line[0], inner[0]), (line[-1], inner[1]), *(end.tail for end in ends)]
+    for before, corner, after in zip(line, line[1:], line[2:], strict=False):
+        wide += [(corner, _toward(corner, other, JOG)) for other in (before, after)]
+    chain = list(pairwise((inner[0], *line[1:-1], inner[1])))
+    return MarkShapes(wide, chain, [end.arrow for end in ends], [*((end.letter, mark.letter) for end in ends), *texts])
 
 
 def marks_svg(marks: Sequence[SectionMark], height: float, color: str, widths: tuple[float, float]) -> str:
@@ -112,10 +121,10 @@ def _svg(shapes: MarkShapes, height: float, color: str, widths: tuple[float, flo
     return "".join([*out, "</g>\n"])
 
 
-def _toward(end: Point, other: Point) -> Point:
-    """Where the thick end of a line ends."""
+def _toward(end: Point, other: Point, length: float) -> Point:
+    """Where a thick piece of a line ends that is so long, but no longer than half of the line."""
     way = (other[0] - end[0], other[1] - end[1])
-    share = min(BEYOND / (float((way[0] ** 2 + way[1] ** 2) ** 0.5) or 1.0), 0.5)
+    share = min(length / (float((way[0] ** 2 + way[1] ** 2) ** 0.5) or 1.0), 0.5)
     return end[0] + share * way[0], end[1] + share * way[1]
 
 

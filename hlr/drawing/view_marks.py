@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
@@ -44,11 +45,11 @@ class SectionEnd:
 
 
 def section_ends(
-    ends: tuple[Point, Point], back: Point, tail: float = TAIL, aside: float = 0.0
+    ends: Sequence[Point], back: Point, tail: float = TAIL, aside: float = 0.0
 ) -> tuple[SectionEnd, SectionEnd]:
     """Both ends of a section line: each has an arrow that looks as the viewer of the section does.
 
-    ends: on the page; back: from there to the viewer, of length one; tail: of the arrow with its tail, millimetres
+    ends: two, on the page; back: from there to the viewer, of length one; tail: of the arrow with its tail, millimetres
     aside: from the line to the letter, toward the viewer, millimetres
     """
     a, b = ends

@@ -21,8 +21,11 @@ View = ViewName | Sequence[float]
 Parameter = bool | int | float | str
 """A value for a variable of a script."""
 
-SectionPlace = bool | float | Vector
-"""Where a view is cut: True for the middle, a coordinate, or a point on the plane (`hlr.request.section`)."""
+Steps = tuple[float | tuple[float, float], ...]
+"""Of a plane that steps: its first coordinate, then pairs: from where on, and at which coordinate."""
+
+SectionPlace = bool | float | Vector | Steps
+"""Where a view is cut: True for the middle, a coordinate, a point on the plane, or steps (`hlr.request.section`)."""
 
 SectionLike = SectionPlace | Mapping[str, SectionPlace]
 """Where all views are cut, or some of them, by name."""
@@ -69,8 +72,9 @@ class Options:
     circles      creases and borders of a mesh become circles where every vertex lies on one within the accuracy, and
                  neighbours are less than the crease angle (and 45 degrees) apart
     section      cut the model by a plane across the view, and take away what lies before it: True for the middle of the
-                 model; a number, the coordinate on the axis that the view looks along; a point on the plane, all in
-                 millimetres in the world, as an eye; or these by the names of the views that are cut:
+                 model; a number, the coordinate on the axis that the view looks along; a point on the plane; or
+                 (12.5, (30, 40)) where the plane steps: at 12.5, and from 30 on, on the axis across the view, at 40;
+                 all in millimetres in the world, as an eye; or these by the names of the views that are cut:
                  {"front": True, "left": 12.5}. Cut faces are hatched
     uncut        patterns of parts that sections leave whole, as bolts, shafts and ribs are by custom
     up           the direction that points up on paper; None: the named view's own, else z (y for views along z)

@@ -1,21 +1,23 @@
 """Sections: which views of a drawing are cut, and where. Planes lie across the direction of their view.
 
 A section is said by a place: True for the middle of the model; a number for the coordinate at which a view along an
-axis is cut, x for left and right, y for front and back, z for top and bottom; or a point on the plane. Lengths are
-millimetres in the world (z up), as those of an eye. One place is for all views; a mapping says a place for each of the
-views that it names, and the others are not cut.
+axis is cut, x for left and right, y for front and back, z for top and bottom; or a point on the plane. A plane may
+step: (12.5, (30, 40)) lies at 12.5, and from 30 on at 40. It steps along the axis that runs across the view: x for
+front, back, top and bottom, y for left and right. Lengths are millimetres in the world (z up), as those of an eye. One
+place is for all views; a mapping says a place for each of the views that it names, and the others are not cut.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from typing import Any, cast
+from itertools import pairwise
+from typing import Any, TypeGuard, cast
 
 from hlr.common.numbers import is_finite
 from hlr.errors import OptionError, ViewError
 from hlr.request.directions import directed, pictorial
-from hlr.request.options import SectionPlace, Vector, View
+from hlr.request.options import SectionPlace, Steps, Vector, View
 from hlr.tables.entry import listed
 
 FARTHEST = 1e12
@@ -53,7 +55,11 @@ def check_sections(section: Any, views: Sequence[View], *, by_name: bool = False
         raise OptionError('a page of several views has sections by name: give {"front": True}, not one for all')
     for view, name in zip(views, names, strict=True):
         place = place_of(section, view)
-        if place is not None and not isinstance(place, bool | tuple) and pictorial(directed(view)[1]):
+        if place is None or isinstance(place, bool) or not pictorial(directed(view)[1]):
+            continue
+        if is_stepped(place):
+            raise OptionError(f"section {name}: planes step in views along an axis alone, such as front")
+        if not isinstance(place, tuple):
             raise OptionError(
                 f"section {name} at {place:g}: the view looks along no axis, so give a point on its plane, such as "
                 "0,0,0"
@@ -64,6 +70,11 @@ def with_sections(views: Sequence[View], section: Mapping[str, SectionPlace]) ->
     """The views, and after them those that are cut and are not among them. section: checked."""
     names = [directed(view)[0] for view in views]
     return (*views, *(cast(View, _vector(name) if "," in name else name) for name in section if name not in names))
+
+
+def is_stepped(place: Any) -> TypeGuard[Steps]:
+    """Whether a plane steps. place: checked."""
+    return isinstance(place, tuple) and isinstance(place[1], tuple)
 
 
 def axis_of(direction: Vector) -> int | None:
@@ -94,10 +105,27 @@ def _place(place: Any) -> SectionPlace | None:
     with suppress(TypeError, ValueError):
         x, y, z = map(_coordinate, () if isinstance(place, str | bytes) else place)
         return x, y, z
+    with suppress(TypeError, ValueError):
+        first, *steps = [] if isinstance(place, str | bytes) else list(place)
+        return _stepped(_coordinate(first), [(_coordinate(a), _coordinate(b)) for a, b in steps])
     raise OptionError(
-        "section needs True for the middle of the model, a coordinate such as 12.5, or a point on its plane such as "
-        f"(0, 12.5, 0), in millimetres, not {place!r}"
+        "section needs True for the middle of the model, a coordinate such as 12.5, a point on its plane such as "
+        f"(0, 12.5, 0), or steps such as (12.5, (30, 40)), in millimetres, not {place!r}"
     )
+
+
+def _stepped(first: float, steps: list[tuple[float, float]]) -> SectionPlace:
+    """A plane that steps. Raises OptionError where the steps are not in order, or do not step."""
+    if not steps:
+        raise TypeError
+    begins, places = [begin for begin, _ in steps], [first, *(place for _, place in steps)]
+    for a, b in pairwise(begins):
+        if not a < b:
+            raise OptionError(f"section steps from {a:g} on, then from {b:g} on: give its steps in ascending order")
+    for begin, (a, b) in zip(begins, pairwise(places), strict=True):
+        if a == b:
+            raise OptionError(f"section steps from {a:g} to {b:g} at {begin:g}: leave this step out")
+    return (first, *steps)
 
 
 def _coordinate(value: Any) -> float:

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from hlr.drawing.curve import Arc, Curve
 from hlr.drawing.drawing import Drawing, DrawnView
 from hlr.drawing.line import Line
+from hlr.drawing.section import Section
 from hlr.errors import WriteError
 from hlr.request.style import Style
 from hlr.tables import documents
@@ -34,7 +35,7 @@ def document(drawing: Drawing) -> bytes:
         "scale": float(drawing.scale),
         "origin": _numbers(drawing.origin),
         **({} if drawing.window is None else {"window": _numbers(drawing.window)}),
-        **({} if drawing.section is None else {"section": asdict(drawing.section)}),
+        **({} if drawing.section is None else {"section": _section(drawing.section)}),
         **({} if drawing.page is None else {"page": asdict(drawing.page)}),
         "model": {"unit": float(drawing.unit), "up_axis": _numbers(drawing.up_axis)},
     }
@@ -75,6 +76,13 @@ def _view(view: DrawnView) -> dict[str, Any]:
     fields = {k: v if isinstance(v, str) else _numbers(v) for k, v in asdict(view).items() if v is not None}
     # In perspective, what is unknown is null.
     return fields if view.projection == "orthographic" else dict.fromkeys(asdict(view)) | fields
+
+
+def _section(section: Section) -> dict[str, Any]:
+    fields = asdict(section)
+    if not section.corners:
+        del fields["corners"]
+    return fields
 
 
 def _lines(lines: Sequence[Line]) -> Iterator[str]:

@@ -137,6 +137,7 @@ def description(drawing: Drawing) -> str:
     """What a reader who does not see the drawing is told."""
     seen = held(drawing.lines).visible()
     cut = "" if drawing.section is None else ", cut by a plane"
+    cut += " that steps" if drawing.section is not None and drawing.section.corners else ""
     visible, hidden = int(seen.sum()), int(len(seen) - seen.sum())
     return (
         f"Hidden-line drawing of {drawing.source}{cut}: view {drawing.view.name}, {drawing.view.projection}, scale "
@@ -181,6 +182,8 @@ def _camera(drawing: Drawing) -> dict[str, str]:
         fields["target"] = _vector(view.target)
     if drawing.section is not None:
         fields["section"] = _vector(drawing.section.point)
+        if drawing.section.corners:
+            fields["section-corners"] = _vector(tuple(c for corner in drawing.section.corners for c in corner))
     return fields | {"scale": ratio(drawing.scale), "origin": _vector(drawing.origin), "unit": f"{drawing.unit:.9g}"}
 
 

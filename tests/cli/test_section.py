@@ -62,6 +62,11 @@ def test_parts_stay_whole(draw, tmp_path):
         (["--section", "front@"], "'front@' names no plane: give front, front@12.5 in millimetres, or front@0,12.5,0"),
         (["--section", "front@a"], "'front@a' names no plane"),
         (["--section", "front@1,2"], "'front@1,2' names no plane"),
+        (["--section", "front@1,2:"], "'front@1,2:' names no plane"),
+        (["--section", "front@1:2"], "'front@1:2' names no plane"),
+        (["--section", "front@1,2:3:4"], "or, where it steps, front@12.5,30:40"),
+        (["--section", "front@20,200:30"], "section front steps at x = 200, beside the model: as1-oc-214.stp reaches"),
+        (["--section", "front@20,9:30,4:8"], "section steps from 9 on, then from 4 on: give its steps in ascending or"),
         (["--section", "front", "--section", "front@3"], "--section gives front twice: a view is cut once"),
         (["--section", "front@900"], "section front at y = 900 misses the model: as1-oc-214.stp reaches from 0 to 150"),
         (["--section", "iso@9"], "section iso at 9: the view looks along no axis, so give a point on its plane"),
@@ -78,6 +83,14 @@ def test_what_cannot_be_cut_is_refused_in_one_sentence(draw, tmp_path, arguments
     assert message in done.err
     assert done.err.count("\n") == 1
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("plane", ["front@-5,0:7.5", "FRONT@-5,0:7.5", "0,-1,0@-5,0:7.5"])
+def test_a_plane_may_step(draw, tmp_path, plane):
+    assert draw(BOX, "--section", plane, "-o", "a.svg").code == 0
+    svg = (tmp_path / "a.svg").read_text("utf-8")
+    corners = svg.partition(' section-corners="')[2].partition('"')[0].split()
+    assert [float(corner) for corner in (*corners[:2], *corners[3:5])] == [0.0, -5.0, 0.0, 7.5]
 
 
 @pytest.mark.parametrize(

@@ -6,14 +6,15 @@ import numpy as np
 import pytest
 
 from hlr.pipeline.section.cover import cover_of
-from hlr.pipeline.section.plane import Plane
+from hlr.source.stepped import Stepped
 
-PLANE = Plane((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 1e-9, False, {})
+UP, RIGHT = np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
+PLANE = Stepped(UP, RIGHT, np.zeros(1), np.zeros(0))
 
 
-def sides(points, triangles, name="part"):
+def sides(points, triangles, name="part", planes=PLANE):
     part = SimpleNamespace(name=name, points=np.array(points, float), triangles=np.array(triangles))
-    found = cover_of([part], {"part"}, PLANE)
+    found = cover_of([part], {"part"}, planes, 1e-9)
     return {tuple(map(tuple, np.round(side, 6).tolist())) for side in found}
 
 
@@ -43,3 +44,12 @@ def test_what_triangles_share_is_no_border():
 )
 def test_what_lies_behind_looks_away_or_is_of_other_parts_hides_nothing(points, name):
     assert sides(points, [(0, 1, 2)], name) == set()
+
+
+def test_planes_that_step_cut_what_lies_before_each_of_them():
+    stepped = Stepped(UP, RIGHT, np.array([0.0, 2.0]), np.array([2.0]))
+    corners = [(0, 0, 1), (4, 0, 1), (4, 4, 1), (0, 4, 1)]
+    found = sides(corners, [(0, 1, 2), (0, 2, 3)], planes=stepped)
+    # Half of the square is left: its border, in pieces where triangles end.
+    length = sum(float(np.linalg.norm(np.subtract(*side))) for side in found)
+    assert length == 12.0 and max(point[0] for side in found for point in side) == 2.0

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import hlr
-from hlr.drawing.section_marks import BEYOND, LETTERS, REACH, SectionMark, letter_of, shapes_of
+from hlr.drawing.section_marks import BEYOND, JOG, LETTERS, REACH, SectionMark, letter_of, shapes_of
 from hlr.errors import OptionError
 
 
@@ -72,6 +72,58 @@ def test_sections_from_other_sides_are_marked_in_the_front_view(method, view, ba
     low, high = extent(page, "front")
     middle = np.mean(mark.line, axis=0)
     assert (middle > low).all() and (middle < high).all()
+
+
+@pytest.mark.parametrize("view", ["front", "back"])
+def test_the_cutting_line_of_a_plane_that_steps_jogs_with_thick_corners(view):
+    page = page_of(
+        "first-angle", ["front", "top", *([view] if view != "front" else [])], section={view: (5.0, (10.0, -8.0))}
+    )
+    (mark,) = page.sheet.marks
+    (scale,) = {each.scale for each in page.sheet.views}
+    low, high = extent(page, "top")
+    # The view from above: x from -30 to 30, y from -20 to 20 mm.
+    x, first, then = low[0] + 40.0 * scale, low[1] + 25.0 * scale, low[1] + 12.0 * scale
+    wanted = [(low[0] - BEYOND, first), (x, first), (x, then), (high[0] + BEYOND, then)]
+    assert np.array(mark.line) == pytest.approx(np.array(wanted), abs=1e-3)
+    assert mark.back == pytest.approx((0.0, -1.0 if view == "front" else 1.0))
+    shapes = shapes_of(mark)
+    assert len(shapes.chain) == 3 and len(shapes.arrows) == 2
+    thick = [ends for ends in shapes.wide if ends[0] in mark.line[1:-1]]
+    lengths = [float(np.hypot(*np.subtract(*ends))) for ends in thick]
+    assert lengths == pytest.approx([JOG] * 4)
+    tips = [np.array(arrow[0]) for arrow in shapes.arrows]
+    for tip, end in zip(tips, (mark.line[0], mark.line[-1]), strict=True):
+        assert np.abs(tip - end).max() < 1e-6
+
+
+def test_steps_are_marked_in_the_view_that_sees_them_and_else_in_none():
+    both = page_of(views=["front", "left", "top"], section={"left": (5.0, (-4.0, 20.0))})
+    (mark,) = both.sheet.marks
+    low, high = extent(both, "top")
+    assert all(low[0] < x < high[0] for x, _ in mark.line)
+    below = page_of(views=["front", "left", "bottom"], section={"left": (5.0, (-4.0, 20.0))})
+    line = np.array(below.sheet.marks[0].line)
+    low, high = extent(below, "bottom")
+    (scale,) = {each.scale for each in below.sheet.views}
+    # From below y points down: the line begins where y is large.
+    x, y = low[0] + np.array([35.0, 50.0]) * scale, high[1] - 16.0 * scale
+    wanted = [(x[1], low[1] - BEYOND), (x[1], y), (x[0], y), (x[0], high[1] + BEYOND)]
+    assert line == pytest.approx(np.array(wanted), abs=1e-3)
+    alone = page_of(views=["front", "left"], section={"left": (5.0, (-4.0, 20.0))})
+    assert alone.sheet.marks[0].line is None
+    assert [note.code for note in alone.notes] == ["section-not-marked"]
+
+
+def test_files_of_a_page_show_the_jogs(tmp_path):
+    page = page_of(section={"front": (5.0, (10.0, -8.0))})
+    group = page.to_svg().partition('<g class="section"')[2].partition("</g>")[0]
+    assert group.count("stroke-dasharray") == 3
+    import ezdxf
+
+    document = ezdxf.readfile(page.save(tmp_path / "page.dxf"))
+    lines = document.modelspace().query('LINE[layer=="SECTION_MARKS"]')
+    assert len(lines) == 3 + 2 + 2 + 4
 
 
 def boxes_of(mark, name=False):

@@ -22,6 +22,8 @@ def form(section):
         (np.float64(-3.5), -3.5),
         ([0, 12, 0], (0.0, 12.0, 0.0)),
         (np.array([1.0, 2.0, 3.0]), (1.0, 2.0, 3.0)),
+        ((5, (30, 40)), (5.0, (30.0, 40.0))),
+        ([5, [30, 40], np.array([50, 8])], (5.0, (30.0, 40.0), (50.0, 8.0))),
         ({"Front ": True, "left": 3}, {"front": True, "left": 3.0}),
         ({"front": False}, None),
         ({"1,-1,0": (1, 2, 3), (0, 0, 2): True}, {"1,-1,0": (1.0, 2.0, 3.0), "0,0,2": True}),
@@ -31,7 +33,24 @@ def test_a_section_has_one_form(given, found):
     assert form(given) == found
 
 
-@pytest.mark.parametrize("section", ["middle", (1, 2), (1, 2, "x"), float("nan"), 1e13, (0, 0, float("inf")), b"123"])
+@pytest.mark.parametrize(
+    "section",
+    [
+        "middle",
+        (1, 2),
+        (1, (2,)),
+        (1, (2, 3, 4)),
+        ((2, 3),),
+        (1, (2, "x")),
+        (1,),
+        (),
+        (1, 2, "x"),
+        float("nan"),
+        1e13,
+        (0, 0, float("inf")),
+        b"123",
+    ],
+)
 def test_what_names_no_plane_is_refused_with_what_would(section):
     with pytest.raises(hlr.OptionError, match="section needs True for the middle of the model, a coordinate such as"):
         form(section)

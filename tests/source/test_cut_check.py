@@ -8,9 +8,11 @@ from hlr.errors import SourceError
 from hlr.source.cad import half_space
 from hlr.source.cad.cut_check import CutCheck, has_surfaces, is_closed
 from hlr.source.cad.parts import Leaf
+from hlr.source.stepped import Stepped
 from support.brep_shapes import bare_triangles
 
 ORIGIN, UP = np.zeros(3), np.array([0.0, 0.0, 1.0])
+PLANE = Stepped(UP, np.array([1.0, 0.0, 0.0]), np.zeros(1), np.zeros(0))
 
 
 def block(z=0.0, height=4.0):
@@ -40,7 +42,7 @@ def test_a_shape_is_closed_where_each_of_its_edges_has_two_faces():
 
 
 def test_what_a_cut_must_do():
-    check = CutCheck(block(), ORIGIN, UP, 7.0)
+    check = CutCheck(block(), PLANE, 7.0)
     assert check.is_cut(block(-1, 2), False) and check.is_sound(block(-1, 2))
     assert not check.is_cut(block(), True)  # all of it is left
     assert not check.is_cut(None, False)  # it is lost
@@ -48,12 +50,10 @@ def test_what_a_cut_must_do():
     assert not check.is_cut(block(-0.5, 1), False)  # some behind it is lost
     assert not check.is_sound(lidless_shell())
     # What was open may be open, and what does not reach the plane may stay, or go.
-    assert CutCheck(cq.Shell.makeShell(lidless()).wrapped, ORIGIN, UP, 7.0).is_sound(
-        cq.Shell.makeShell(lidless()).wrapped
-    )
-    assert CutCheck(block(-3), ORIGIN, UP, 7.0).is_cut(block(-3), True)
-    assert CutCheck(block(3), ORIGIN, UP, 7.0).is_cut(None, False)
-    assert not CutCheck(cq.Workplane().sphere(3).val().wrapped, ORIGIN, UP, 7.0).is_cut(None, False)
+    assert CutCheck(cq.Shell.makeShell(lidless()).wrapped, PLANE, 7.0).is_sound(cq.Shell.makeShell(lidless()).wrapped)
+    assert CutCheck(block(-3), PLANE, 7.0).is_cut(block(-3), True)
+    assert CutCheck(block(3), PLANE, 7.0).is_cut(None, False)
+    assert not CutCheck(cq.Workplane().sphere(3).val().wrapped, PLANE, 7.0).is_cut(None, False)
 
 
 def test_vertices_may_lie_off_the_plane_by_some_tolerances_but_not_far():
@@ -61,10 +61,10 @@ def test_vertices_may_lie_off_the_plane_by_some_tolerances_but_not_far():
 
     loose = block()
     ShapeFix_ShapeTolerance().SetTolerance(loose, 0.01)
-    assert CutCheck(loose, ORIGIN, UP, 7.0).is_cut(block(-0.98, 2.04), False)
-    assert not CutCheck(block(), ORIGIN, UP, 7.0).is_cut(block(-0.98, 2.04), False)
+    assert CutCheck(loose, PLANE, 7.0).is_cut(block(-0.98, 2.04), False)
+    assert not CutCheck(block(), PLANE, 7.0).is_cut(block(-0.98, 2.04), False)
     ShapeFix_ShapeTolerance().SetTolerance(loose, 0.5)
-    assert not CutCheck(loose, ORIGIN, UP, 7.0).is_cut(loose, False)
+    assert not CutCheck(loose, PLANE, 7.0).is_cut(loose, False)
 
 
 @pytest.mark.parametrize("wrong", ["whole", "lost", "failed", "open"])

@@ -9,8 +9,13 @@ import trimesh
 from hlr.source.mesh.clipping import clipped
 from hlr.source.mesh.closed import of_closed_bodies
 from hlr.source.mesh.half_space import cut_mesh
+from hlr.source.stepped import Stepped
 
-UP = np.array([0.0, 0.0, 1.0])
+UP, RIGHT = np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
+
+
+def plane(height=0.0, normal=UP):
+    return Stepped(normal, RIGHT, np.array([height]), np.zeros(0))
 
 
 def block(shift=(0.0, 0.0, 0.0), without=()):
@@ -28,9 +33,9 @@ def together(*meshes):
     )
 
 
-def cut(mesh, height=0.0, near=1e-9):
+def cut(mesh, planes=None):
     part = SimpleNamespace(points=np.array(mesh[0], float), triangles=np.array(mesh[1], np.int32))
-    return cut_mesh(part, np.array([0.0, 0.0, height]), UP, near)
+    return cut_mesh(part, planes or plane(), 1e-9)
 
 
 def area(points, rows):
@@ -47,7 +52,7 @@ def borders(rows):
 
 def clip(points, rows, height=0.0, near=1e-9):
     points, rows = np.array(points, float), np.array(rows, np.int32)
-    return clipped(points, rows, UP, points[:, 2] - height, near)
+    return clipped(points, rows, plane(height), near)
 
 
 def figures(points, rows):
@@ -87,9 +92,8 @@ def test_what_is_left_meets_in_the_same_points_and_nothing_is_lost():
     ball = trimesh.creation.icosphere(3, 10.0)
     rows = ball.faces[ball.triangles_center[:, 0] < 8.0].astype(np.int32)
     points = np.asarray(ball.vertices)
-    heights = points @ UP - 0.3
-    low = clipped(points, rows, UP, heights, 1e-9)
-    high = clipped(points, rows, -UP, -heights, 1e-9)
+    low = clipped(points, rows, plane(0.3), 1e-9)
+    high = clipped(points, rows, plane(-0.3, -UP), 1e-9)
     assert area(*low) + area(*high) == pytest.approx(area(points, rows), rel=1e-12)
     given = {tuple(edge) for edge in borders(rows).tolist()}
     for made, sides in ((low, 1.0), (high, -1.0)):
@@ -99,7 +103,7 @@ def test_what_is_left_meets_in_the_same_points_and_nothing_is_lost():
             on_plane = np.abs(ends @ UP - 0.3).max() < 1e-12
             # An edge of the opening, or a piece of one.
             assert on_plane or (a, b) in given or max(a, b) >= len(points)
-    whole = clipped(points, ball.faces.astype(np.int32), UP, heights, 1e-9)
+    whole = clipped(points, ball.faces.astype(np.int32), plane(0.3), 1e-9)
     assert np.abs(whole[0][borders(whole[1])] @ UP - 0.3).max() < 1e-12
 
 
@@ -164,3 +168,28 @@ def test_a_flat_sheet_folded_onto_itself_has_no_inside():
     (piece,) = cut((points, rows))
     assert not piece.closed
     assert area(piece.points, piece.triangles) == pytest.approx(2 * (8 - 0.5 * 3 * 3))
+
+
+STEPS = Stepped(UP, RIGHT, np.array([0.0, 0.5, -0.5]), np.array([-0.4, 0.3]))
+
+
+def test_a_closed_body_is_cut_by_planes_that_step():
+    (piece,) = cut(block(), STEPS)
+    left = trimesh.Trimesh(piece.points, piece.triangles)
+    assert left.is_watertight
+    assert left.volume == pytest.approx(2 * (0.6 * 1.0 + 0.7 * 1.5 + 0.7 * 0.5))
+
+
+def test_an_open_body_is_cut_by_planes_that_step_and_opens_nowhere_else():
+    ball = trimesh.creation.icosphere(3, 1.0)
+    part = np.asarray(ball.vertices), ball.faces[ball.triangles_center[:, 2] > -0.9].astype(np.int32)
+    (piece,) = cut(part, STEPS)
+    points, rows = piece.points, piece.triangles
+    assert not piece.closed
+    x, z = points[rows].mean(axis=1)[:, [0, 2]].T
+    assert (z < np.select([x < -0.4, x < 0.3], [0.0, 0.5], -0.5)).all()
+    for ends in points[borders(rows)]:
+        x, z = ends[:, 0], ends[:, 2]
+        on_level = any(np.abs(z - level).max() < 1e-9 for level in STEPS.levels)
+        on_step = any(np.abs(x - step).max() < 1e-9 for step in STEPS.steps) and (z > -0.5 - 1e-9).all()
+        assert on_level or on_step or (z < -0.8).all()

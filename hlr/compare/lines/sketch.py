@@ -42,6 +42,7 @@ class StatedView:
     direction   from the object toward the viewer
     eye, target  in perspective
     section     a point on the plane by which the model was cut; None: it was not
+    corners     where that plane steps: of each step a point on the edge of the plane before it, and of that behind it
     """
 
     name: str
@@ -50,6 +51,7 @@ class StatedView:
     eye: Vector | None = None
     target: Vector | None = None
     section: Vector | None = None
+    corners: tuple[Vector, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

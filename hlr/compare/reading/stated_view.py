@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from hlr.compare.lines.sketch import StatedView
 from hlr.drawing.drawing import DrawnView
 from hlr.drawing.section import Section
-from hlr.request.options import Options, Perspective, Vector, View
+from hlr.request.options import Options, Perspective, SectionPlace, Steps, Vector, View
 from hlr.source.model import Frame
 
 
 def stated_by(view: DrawnView, section: Section | None = None) -> StatedView:
     """Of a drawing in memory."""
-    cut = None if section is None else section.point
-    return StatedView(view.name, view.direction, view.up, view.eye, view.target, cut)
+    cut, corners = (None, ()) if section is None else (section.point, section.corners)
+    return StatedView(view.name, view.direction, view.up, view.eye, view.target, cut, corners)
 
 
 def stated_in(name: str | None, fields: Mapping[str, str]) -> StatedView | None:
@@ -25,9 +25,11 @@ def stated_in(name: str | None, fields: Mapping[str, str]) -> StatedView | None:
         return None
     eye, target, section = (_vector(fields[key]) if key in fields else None for key in ("eye", "target", "section"))
     direction, up = (_vector(fields[key]) for key in ("direction", "up"))
+    numbers = fields.get("section-corners", "").split()
+    corners = tuple(_vector(" ".join(numbers[k : k + 3])) for k in range(0, len(numbers), 3))
     if not any(direction) or not any(up):
         raise ValueError("a direction is zero")
-    return StatedView(name, direction, up, eye, target, section)
+    return StatedView(name, direction, up, eye, target, section, corners)
 
 
 def _vector(text: str) -> Vector:
@@ -44,8 +46,22 @@ def as_stated(stated: StatedView, frame: Frame, options: Options) -> tuple[View,
         target = None if stated.target is None else _millimetres(stated.target, frame)
         camera = Perspective(eye=_millimetres(stated.eye, frame), target=target)
         return direction, replace(options, up=up, perspective=camera)
-    section = None if stated.section is None else _millimetres(stated.section, frame)
-    return direction, replace(options, up=up, section=section)
+    if stated.section is None:
+        return direction, replace(options, up=up, section=None)
+    place: SectionPlace = _millimetres(stated.section, frame)
+    if stated.corners:
+        place = _stepped([_millimetres(corner, frame) for corner in stated.corners], direction, up)
+    return direction, replace(options, up=up, section=place)
+
+
+def _stepped(corners: Sequence[Vector], direction: Vector, up: Vector) -> Steps:
+    """A plane that steps at these corners, millimetres in the world. Raises ValueError where it is none."""
+    toward, upward = (max(range(3), key=lambda k: abs(way[k])) for way in (direction, up))
+    if toward == upward or len(corners) % 2:
+        raise ValueError("a plane steps across an axis, from one point to another")
+    (across,) = {0, 1, 2} - {toward, upward}
+    steps = [(after[across], after[toward]) for after in corners[1::2]]
+    return (corners[0][toward], *steps)
 
 
 def _millimetres(point: Vector, frame: Frame) -> Vector:

@@ -15,7 +15,7 @@ from hlr.drawing.notes import Note, Noted
 from hlr.errors import counted
 from hlr.image.paper import at_scale
 from hlr.pipeline.section.hatches import with_hatches
-from hlr.pipeline.section.plane import Plane, plane_of
+from hlr.pipeline.section.plane import Planes, planes_of
 from hlr.pipeline.section.sources import CutSource, cut_source
 from hlr.pipeline.session import Draft, Session
 from hlr.request.directions import directed
@@ -32,7 +32,7 @@ from hlr.source.selection import matching, open_selected
 class _Cut:
     """A section before it is drawn. seconds: that it took to cut the model."""
 
-    plane: Plane
+    planes: Planes
     source: CutSource
     seconds: float
 
@@ -128,9 +128,9 @@ def _cut_for(view: View, source: Source, options: Options) -> _Cut | None:
     key = directed(view)[1], place is True, place, tuple(options.uncut)
     if key not in known:
         started = perf_counter()
-        plane = plane_of(place, view, source, options)
-        cut = cut_source(source, plane, matching(options.uncut, source, "uncut"))
-        found = _Cut(plane, cut, perf_counter() - started)
+        planes = planes_of(place, view, source, options)
+        cut = cut_source(source, planes, matching(options.uncut, source, "uncut"))
+        found = _Cut(planes, cut, perf_counter() - started)
         if cut.source is source:
             return found
         known[key] = found
@@ -145,7 +145,7 @@ def _of_section(options: Options) -> Options:
 def _finished(drawing: Drawing, session: Session, cut: _Cut, whole: Source, view: View) -> Drawing:
     """The drawing with its hatches, and what is to be said about them."""
     started, clock = perf_counter(), dict(drawing.timings)
-    drawing = with_hatches(drawing, session, cut.plane, cut.source, whole)
+    drawing = with_hatches(drawing, session, cut.planes, cut.source, whole)
     notes = *drawing.notes, *_failed(view, cut), *_notes(drawing, cut, directed(view)[0])
     drawing = replace(drawing, notes=notes)
     lap(clock, "linework", started)
@@ -172,7 +172,7 @@ def _notes(drawing: Drawing, cut: _Cut, name: str) -> list[Note]:
     hatched = {cut.source.whose[drawing.parts[k].name] for k in drawing.section.parts}
     are_open = {cut.source.whose[part] for part, is_cut in cut.source.open.items() if is_cut}
     unhatched = sorted(are_open or cut.source.cut - hatched)
-    if cut.plane.touching:
+    if cut.planes.touching:
         text = f"the plane of section {name} only touches the model: nothing is taken away."
     elif not cut.source.cut and not hatched and cut.source.through:
         text = f"all parts that the plane of section {name} goes through stay whole: nothing is hatched."

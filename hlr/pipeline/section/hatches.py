@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,11 +15,14 @@ from hlr.linework.cut_faces import CutFace, cut_faces, level_faces
 from hlr.linework.hatch_strokes import uncovered
 from hlr.linework.hatching import hatched, patterns_of, sides_of
 from hlr.linework.joints import covered, is_covered, joint_borders
-from hlr.pipeline.section.plane import Plane
+from hlr.pipeline.section.jogs import without_jogs
+from hlr.pipeline.section.plane import Plane, Planes
 from hlr.pipeline.section.sources import CutSource
 from hlr.pipeline.session import Session
 from hlr.request.accuracy import ANGLE
-from hlr.source.model import Source
+from hlr.source.mesh.clipping import split_at
+from hlr.source.model import PartMesh, Source
+from hlr.source.stepped import Stepped
 from hlr.tables.sheets import SHEETS, USUAL
 from hlr.window.frame import Frame
 from hlr.window.lines import cut_lines
@@ -26,24 +30,32 @@ from hlr.window.lines import cut_lines
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Hatched:
-    """A face to be hatched. loops (k, 2): its border on paper; cover: what it is hatched under, None: all of it."""
+    """A face to be hatched.
+
+    loops (k, 2): its border on paper; level: how far it lies toward the viewer, model units
+    cover: what it is hatched under, None: all of it
+    """
 
     face: CutFace
     loops: list[Floats]
+    level: float
     cover: list[Floats] | None = None
 
 
-def with_hatches(drawing: Drawing, session: Session, plane: Plane, cut: CutSource, whole: Source) -> Drawing:
-    """A drawing of what a plane leaves, with its cut faces hatched. session: that has drawn it; whole: the source."""
-    paper = _Paper(drawing)
-    every = [*_cut_faces(session, plane, cut, paper), *_joints(session, plane, cut, paper, whole)]
+def with_hatches(drawing: Drawing, session: Session, planes: Planes, cut: CutSource, whole: Source) -> Drawing:
+    """A drawing of what planes leave, with its cut faces hatched. session: that has drawn it; whole: the source."""
+    paper, every = _Paper(drawing), list[_Hatched]()
+    beside = list(_beside(session.parts, planes))
+    for plane, own in beside:
+        every += _cut_faces(own, plane, cut, paper)
+    for plane, own in beside:
+        every += _joints(session, own, plane, cut, paper, whole)
     by_part: dict[str, list[Floats]] = {}
     for each in every:
         by_part.setdefault(cut.whose[each.face.part], []).extend(each.loops)
     patterns = patterns_of(by_part, _shorter_side(drawing))
     number = {part.name: k for k, part in enumerate(drawing.parts)}
-    level = float(np.array(plane.point) @ np.array(plane.normal))
-    before = _before(session, plane, cut, paper)
+    before = _before(session, planes, cut, paper)
     shortest = drawing.accuracy.used
     # Where parts overlap, a face that is cut lies over joints.
     over = [sides_of(each.loops) for each in every if each.cover is None]
@@ -52,7 +64,7 @@ def with_hatches(drawing: Drawing, session: Session, plane: Plane, cut: CutSourc
     rims: list[Line] = []
     parts: set[int] = set()
     for each in every:
-        face, part, hiding = each.face, number[each.face.part], before
+        face, part, hiding, level = each.face, number[each.face.part], before, each.level
         strokes = hatched(each.loops, patterns[cut.whose[face.part]], shortest)
         borders = [paper.on(face.points[rim]) for rim in face.rims]
         if each.cover is not None:
@@ -64,13 +76,17 @@ def with_hatches(drawing: Drawing, session: Session, plane: Plane, cut: CutSourc
             strokes = strokes[np.hypot(*(strokes[:, 1] - strokes[:, 0]).T) >= shortest]
         if each.cover is None or len(strokes):
             parts.add(part)
-        hatches += [Line("hatch", True, part, None, face.number, each, paper.behind(each, level)) for each in strokes]
+        hatches += [
+            Line("hatch", True, part, None, face.number, stroke, paper.behind(stroke, level)) for stroke in strokes
+        ]
         for border in borders:
             rims += _rim(border, part, paper, hiding, level)
+    if planes.steps:
+        drawing = without_jogs(drawing, planes, [(cut.whose[each.face.part], each.loops) for each in every], cut.whose)
     if drawing.window is not None:
         frame = Frame(drawing.view, drawing.scale * drawing.unit, drawing.window)
         hatches, rims = list(cut_lines(hatches, frame)[0]), list(cut_lines(rims, frame)[0])
-    section = Section(plane.point, plane.normal, tuple(sorted(parts)))
+    section = Section(planes.first.point, planes.normal, tuple(sorted(parts)), planes.corners())
     counters = {
         **drawing.counters,
         "lines": drawing.counters.get("lines", 0) + len(rims) + len(hatches),
@@ -80,20 +96,44 @@ def with_hatches(drawing: Drawing, session: Session, plane: Plane, cut: CutSourc
     return replace(drawing, lines=lines, section=section, counters=counters)
 
 
-def _cut_faces(session: Session, plane: Plane, cut: CutSource, paper: _Paper) -> list[_Hatched]:
-    """The faces that the plane has cut."""
+def _beside(parts: Sequence[PartMesh], planes: Planes) -> Iterator[tuple[Plane, list[PartMesh]]]:
+    """Each plane, and what of the parts lies beside its steps: triangles that reach beyond one are split at it."""
+    if not planes.steps:
+        yield planes.first, list(parts)
+        return
+    stepped, along = planes.stepped(), np.array(planes.along)
+    split = [_split(part, stepped, planes.near) for part in parts]
+    for plane, low, high in zip(planes.planes, [-np.inf, *planes.steps], [*planes.steps, np.inf], strict=True):
+        yield plane, [_between(part, along, low, high) for part in split]
+
+
+def _split(part: PartMesh, planes: Stepped, near: float) -> PartMesh:
+    found = split_at(part.points, part.triangles, planes, near, levels=False)
+    return replace(part, points=found.points, triangles=found.triangles, triangle_face=part.triangle_face[found.of])
+
+
+def _between(part: PartMesh, along: Floats, low: float, high: float) -> PartMesh:
+    at = (part.points @ along)[part.triangles].mean(axis=1)
+    chosen = (at > low) & (at < high)
+    return replace(part, triangles=part.triangles[chosen], triangle_face=part.triangle_face[chosen])
+
+
+def _cut_faces(parts: Sequence[PartMesh], plane: Plane, cut: CutSource, paper: _Paper) -> list[_Hatched]:
+    """The faces that a plane has cut."""
     point, normal = np.array(plane.point), np.array(plane.normal)
-    bodies = [part for part in session.parts if part.name not in cut.open]
+    bodies = [part for part in parts if part.name not in cut.open]
     faces = cut_faces(bodies, point, normal, plane.near, lambda name: plane.level.get(cut.whose[name]))
     return [
-        _Hatched(face, [paper.on(border) for border in face.borders])
+        _Hatched(face, [paper.on(border) for border in face.borders], plane.height)
         for face in faces
         if cut.whose[face.part] in cut.cut
     ]
 
 
-def _joints(session: Session, plane: Plane, cut: CutSource, paper: _Paper, whole: Source) -> list[_Hatched]:
-    """The faces that lay in the plane before and on which other parts rest, under those."""
+def _joints(
+    session: Session, parts: Sequence[PartMesh], plane: Plane, cut: CutSource, paper: _Paper, whole: Source
+) -> list[_Hatched]:
+    """The faces that lay in a plane before and on which other parts rest, under those."""
     ahead = plane.ahead - cut.uncut
     if not ahead or not any(plane.level.keys() - cut.uncut):
         return []
@@ -106,23 +146,23 @@ def _joints(session: Session, plane: Plane, cut: CutSource, paper: _Paper, whole
         for faces in [list(cut_faces([part], point, -normal, plane.near))]
     }
     found = []
-    for face in level_faces(session.parts, point, normal, plane.near, lambda name: plane.level.get(cut.whose[name])):
+    for face in level_faces(parts, point, normal, plane.near, lambda name: plane.level.get(cut.whose[name])):
         own = cut.whose[face.part]
         cover = [loop for name, loops in resting.items() if name != own for loop in loops]
         loops = [paper.on(border) for border in face.borders]
         if own not in cut.uncut and cover and is_covered(loops, sides_of(cover)):
-            found.append(_Hatched(face, loops, cover))
+            found.append(_Hatched(face, loops, plane.height, cover))
     return found
 
 
-def _before(session: Session, plane: Plane, cut: CutSource, paper: _Paper) -> Floats | None:
-    """(k, 2, 2) the borders, on paper, of what lies before the plane; None: nothing does."""
+def _before(session: Session, planes: Planes, cut: CutSource, paper: _Paper) -> Floats | None:
+    """(k, 2, 2) the borders, on paper, of what lies before the planes; None: nothing does."""
     before = {name for name, own in cut.whose.items() if own in cut.through}
     if not before:
         return None
     from hlr.pipeline.section.cover import cover_of
 
-    sides = cover_of(session.parts, before, plane)
+    sides = cover_of(session.parts, before, planes.stepped(), planes.near)
     return paper.on(sides.reshape(-1, 3)).reshape(-1, 2, 2)
 
 

@@ -69,16 +69,18 @@ def section_marks(views: Sequence[OnPage], own: Sequence[bool]) -> tuple[dict[st
 def _base_of(view: OnPage, views: Sequence[OnPage], own: Sequence[bool]) -> OnPage | None:
     """The view in which a section is marked: a whole one with a place of its own where there is one."""
     assert view.drawing.section is not None
-    normal = np.array(view.drawing.section.normal)
+    across = [np.array(view.drawing.section.normal)]
+    if view.drawing.section.corners:
+        across.append(np.array(view.drawing.view.right))
     edge_on = [
         (each.drawing.section is not None, not has_place, number)
         for number, (each, has_place) in enumerate(zip(views, own, strict=True))
-        if each is not view and abs(float(normal @ np.array(each.drawing.view.direction))) <= EDGE_ON
+        if each is not view and all(abs(float(way @ each.drawing.view.direction)) <= EDGE_ON for way in across)
     ]
     return views[min(edge_on)[2]] if edge_on else None
 
 
-def _line(view: OnPage, base: OnPage) -> tuple[tuple[Point, Point], Point]:
+def _line(view: OnPage, base: OnPage) -> tuple[tuple[Point, ...], Point]:
     """The cutting line of a section in another view, and the direction to its viewer there."""
     section, drawing = view.drawing.section, base.drawing
     assert section is not None
@@ -88,12 +90,20 @@ def _line(view: OnPage, base: OnPage) -> tuple[tuple[Point, Point], Point]:
     along = np.array([back[1], -back[0]])
     if along[0] < -EDGE_ON or (abs(along[0]) <= EDGE_ON and along[1] < 0.0):
         along = -along  # from left to right, or up
-    foot = axes @ np.array(section.point) * per_model - np.array(drawing.origin) + base.shift
+    on_line = np.array([section.point, *section.corners])
+    on_page = on_line @ axes.T * per_model - np.array(drawing.origin) + base.shift
+    # The point lies before the first step.
+    corners = on_page[1:] if section.corners else on_page
+    corners = corners[:: -1 if (corners[0] - on_page[0]) @ along < 0.0 else 1]
     points = np.concatenate([line.points for line in drawing.lines]) + base.shift
-    ahead = (points - foot) @ along
-    a = foot + (float(ahead.min()) - BEYOND) * along
-    b = foot + (float(ahead.max()) + BEYOND) * along
-    return (_pair(a), _pair(b)), _pair(back)
+    a, b = (
+        corner + (float(end) - float(corner @ along)) * along
+        for corner, end in (
+            (corners[0], (points @ along).min() - BEYOND),
+            (corners[-1], (points @ along).max() + BEYOND),
+        )
+    )
+    return (_pair(a), *(_pair(corner) for corner in corners if section.corners), _pair(b)), _pair(back)
 
 
 def _name_place(view: OnPage) -> Point:

@@ -1,10 +1,11 @@
-"""The plane of a section: where it lies in a source, and whether it cuts anything there."""
+"""The plane of a section, or its planes where it steps: where they lie in a source, and whether they cut anything."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any, cast
 
 import numpy as np
 
@@ -17,9 +18,13 @@ from hlr.linework.level_faces import with_level_faces
 from hlr.request.accuracy import ANGLE, SMALL_DRAWING
 from hlr.request.directions import directed
 from hlr.request.options import Options, SectionPlace, Vector, View
-from hlr.request.section import axis_of
+from hlr.request.section import axis_of, is_stepped
 from hlr.source.model import PartMesh, Source
+from hlr.source.stepped import Stepped
 from hlr.tables.readers import is_brep
+
+ALONG = 1e-9
+"""How much less than 1 the share of an axis may be in a direction along it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,22 +45,115 @@ class Plane:
     level: Mapping[str, PartMesh]
     ahead: frozenset[str] = frozenset()
 
-    def heights(self, points: Floats) -> Floats:
-        """(n,) how far points (n, 3) lie before the plane, model units."""
-        return np.asarray((points - np.array(self.point)) @ np.array(self.normal))
+    @property
+    def height(self) -> float:
+        """How far it lies toward the viewer, model units."""
+        return float(np.array(self.point) @ np.array(self.normal))
 
 
-def plane_of(place: SectionPlace, view: View, source: Source, options: Options) -> Plane:
-    """The plane at a place; place, view, options: checked.
+@dataclass(frozen=True, slots=True)
+class Planes:
+    """The planes of a section: one, or where it steps several, which lie side by side.
 
-    Raises OptionError where it leaves the model whole, or nothing of it.
+    along  a direction of length 1, model coordinates; steps: how far along it the planes end, model units
     """
-    bounds, unit = source.bounds(), source.frame.unit
+
+    planes: tuple[Plane, ...]
+    along: Vector
+    steps: tuple[float, ...] = ()
+
+    @property
+    def first(self) -> Plane:
+        """The first of them, or the only one."""
+        return self.planes[0]
+
+    @property
+    def normal(self) -> Vector:
+        """Of length 1, toward the viewer."""
+        return self.first.normal
+
+    @property
+    def near(self) -> float:
+        """What lies so close to a plane lies on it, model units."""
+        return self.first.near
+
+    @property
+    def touching(self) -> bool:
+        """Nothing is taken away."""
+        return all(plane.touching for plane in self.planes)
+
+    def stepped(self) -> Stepped:
+        """What the model is cut by."""
+        normal = np.array(self.normal)
+        levels = np.array([np.array(plane.point) @ normal for plane in self.planes])
+        return Stepped(normal, np.array(self.along), levels, np.array(self.steps, float))
+
+    def corners(self) -> tuple[Vector, ...]:
+        """Points on the edges of the planes: of each step one on the plane before it, and one on that behind it."""
+        found: list[Vector] = []
+        along = np.array(self.along)
+        for step, two in zip(self.steps, pairwise(self.planes), strict=True):
+            for plane in two:
+                point = np.array(plane.point)
+                found.append(_vector(point + (step - float(point @ along)) * along))
+        return tuple(found)
+
+
+def planes_of(place: SectionPlace, view: View, source: Source, options: Options) -> Planes:
+    """The planes at a place; place, view, options: checked.
+
+    Raises OptionError where they leave the model whole, or nothing of it.
+    """
+    bounds = source.bounds()
     camera = resolve(view, options, source.frame, bounds)
-    normal, up = np.array(camera.direction), np.array(source.frame.up)
     size = float(np.linalg.norm(bounds[1] - bounds[0]))
     meshed = source.mesh(size / SMALL_DRAWING, ANGLE).parts
-    low, high = _extent(source, meshed, size / SMALL_DRAWING, camera)
+    reach = _extent(source, meshed, size / SMALL_DRAWING, camera)
+    if not is_stepped(place):
+        return Planes((_plane_of(place, view, source, camera, meshed, reach),), camera.right)
+    unit, name = source.frame.unit, directed(view)[0]
+    axis, along = _along(camera, source, name)
+    across = np.concatenate([part.points for part in meshed]) @ along
+    first, *pairs = place
+    steps = [step / unit for step, _ in cast("list[tuple[float, float]]", pairs)]
+    for step in steps:
+        if not across.min() < step < across.max():
+            reached = " to ".join(typed(end * unit + 0.0) for end in (across.min(), across.max()))
+            where = f"steps at {'xyz'[axis]} = {typed(step * unit)}, beside the model"
+            raise OptionError(f"section {name} {where}: {source.name} reaches from {reached} mm there")
+    ends = [float(across.min()), *steps, float(across.max())]
+    places = [cast(float, first), *(at for _, at in cast("list[tuple[float, float]]", pairs))]
+    planes = []
+    for at, span in zip(places, pairwise(ends), strict=True):
+        plane = _plane_of(at, view, source, camera, meshed, reach)
+        point = np.array(plane.point)
+        planes.append(replace(plane, point=_vector(point + (0.5 * sum(span) - float(point @ along)) * along)))
+    return Planes(tuple(planes), _vector(along), tuple(steps))
+
+
+def _along(camera: Camera, source: Source, name: str) -> tuple[int, Floats]:
+    """The axis of the world that runs across a view: 0, 1 or 2, and its direction in the model."""
+    up = np.array(source.frame.up)
+    across = np.abs(up @ np.array(camera.right))
+    axis = int(np.argmax(across))
+    if across[axis] < 1.0 - ALONG:
+        raise OptionError(
+            f"section {name} steps along an axis, and none runs across the view: leave out its steps, or up"
+        )
+    return axis, up[axis]
+
+
+def _plane_of(
+    place: SectionPlace,
+    view: View,
+    source: Source,
+    camera: Camera,
+    meshed: Sequence[PartMesh],
+    reach: tuple[float, float],
+) -> Plane:
+    """One plane. reach: of the model toward the viewer, model units."""
+    bounds, unit, (low, high) = source.bounds(), source.frame.unit, reach
+    normal, up = np.array(camera.direction), np.array(source.frame.up)
     given = None if place is True else np.array(_point(place, view)) / unit @ up
     at = 0.5 * (low + high) if given is None else float(given @ normal)
     near = nearness(bounds, is_brep(source.kind))
@@ -65,9 +163,9 @@ def plane_of(place: SectionPlace, view: View, source: Source, options: Options) 
         raise OptionError(f"section {name} {_told(at, low, high, unit, view, source.name, what)}")
     middle = 0.5 * (bounds[0] + bounds[1])
     on = given if isinstance(place, tuple) else middle + (at - float(middle @ normal)) * normal
-    x, y, z = (np.asarray(on) + 0.0).tolist()
-    level, ahead = (with_level_faces(meshed, np.array([x, y, z]), sense * normal, near) for sense in (1.0, -1.0))
-    return Plane((x, y, z), camera.direction, near, bool(at >= high - near), level, frozenset(ahead))
+    point = _vector(on)
+    level, ahead = (with_level_faces(meshed, np.array(point), sense * normal, near) for sense in (1.0, -1.0))
+    return Plane(point, camera.direction, near, bool(at >= high - near), level, frozenset(ahead))
 
 
 def _extent(source: Source, meshed: Sequence[PartMesh], chord: float, camera: Camera) -> tuple[float, float]:
@@ -86,10 +184,15 @@ def _extent(source: Source, meshed: Sequence[PartMesh], chord: float, camera: Ca
     return low, high
 
 
+def _vector(values: Any) -> Vector:
+    x, y, z = (np.asarray(values) + 0.0).tolist()
+    return x, y, z
+
+
 def _point(place: SectionPlace, view: View) -> Vector:
     """A point on the plane, millimetres in the world."""
     if isinstance(place, tuple):
-        return place
+        return cast(Vector, place)
     axis = axis_of(directed(view)[1])
     x, y, z = (float(place) if k == axis else 0.0 for k in range(3))
     return x, y, z

@@ -10,7 +10,7 @@ import numpy as np
 
 from hlr.common.types import Floats
 from hlr.errors import OptionError, SourceError
-from hlr.pipeline.section.plane import Plane
+from hlr.pipeline.section.plane import Planes
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.half_space import UncuttableError
 from hlr.source.cad.parts import Part
@@ -42,7 +42,7 @@ class CutSource:
     open: Mapping[str, bool] = field(default_factory=dict)
 
 
-def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> CutSource:
+def cut_source(source: Source, planes: Planes, uncut: Collection[str] = ()) -> CutSource:
     """The source without what lies before a plane.
 
     uncut: names of parts that stay whole, unless they lie wholly before the plane
@@ -51,7 +51,7 @@ def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> Cut
         SourceError: it cannot be cut: shapes none of which is sound, another kind of source.
         OptionError: nothing would be left.
     """
-    if plane.touching:
+    if planes.touching:
         return CutSource(source, {name: name for name in source.names()}, frozenset())
     if not isinstance(source, BrepSource | MeshSource):
         raise SourceError(f"{source.name} cannot be cut for a section: draw a CAD model, or a mesh.")
@@ -63,16 +63,17 @@ def cut_source(source: Source, plane: Plane, uncut: Collection[str] = ()) -> Cut
         reaches = [part.points for part in source.parts]
     else:
         reaches = [_corners(box) for box in source.boxes()]
+    stepped = planes.stepped()
     for name, corners in zip(source.names(), reaches, strict=True):
-        heights = plane.heights(corners) if len(corners) else np.zeros(1)
-        if heights.max() <= plane.near:
+        low, high = stepped.reach(corners) if len(corners) else (0.0, 0.0)
+        if high <= planes.near:
             whole.append(name)
-        elif heights.min() < -plane.near:
+        elif low < -planes.near:
             (whole if name in uncut else crossed).append(name)
             through |= {name} & set(uncut)
-    found = _cut_brep(source, plane, whole, crossed) if isinstance(source, BrepSource) else None
+    found = _cut_brep(source, planes, whole, crossed) if isinstance(source, BrepSource) else None
     if isinstance(source, MeshSource):
-        found = _cut_meshes(source, plane, whole, crossed)
+        found = _cut_meshes(source, planes, whole, crossed)
     if found is None:
         raise OptionError(f"the section leaves nothing of {source.name}: move its plane, or leave it out")
     return replace(found, through=frozenset(through | found.failed.keys()), uncut=frozenset({*uncut, *found.failed}))
@@ -85,7 +86,7 @@ def _corners(box: Floats) -> Floats:
     return np.array([[box[i][0], box[j][1], box[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
 
 
-def _cut_brep(source: BrepSource, plane: Plane, whole: list[str], crossed: list[str]) -> CutSource | None:
+def _cut_brep(source: BrepSource, planes: Planes, whole: list[str], crossed: list[str]) -> CutSource | None:
     from hlr.source.cad.occt_import import load_occt
     from hlr.source.cad.parts import Leaf
     from hlr.source.cad.source_builder import build_source, with_appearance
@@ -96,7 +97,7 @@ def _cut_brep(source: BrepSource, plane: Plane, whole: list[str], crossed: list[
     from OCP.TopLoc import TopLoc_Location
 
     shapes, looks = source.prototypes.shapes, source.appearances()
-    cutter = _PrototypeCutter(source, plane)
+    cutter = _PrototypeCutter(source, planes)
     leaves, cut = [], set()
     failed: dict[str, UncuttableError] = {}
     kept, through = set(whole), set(crossed)
@@ -143,9 +144,9 @@ class _PrototypeCutter:
     A board carries the same part many times over, and a plane along it cuts all of them alike.
     """
 
-    def __init__(self, source: BrepSource, plane: Plane) -> None:
+    def __init__(self, source: BrepSource, planes: Planes) -> None:
         self._shapes = source.prototypes.shapes
-        self._plane = np.array(plane.point), np.array(plane.normal)
+        self._planes = planes.stepped()
         self._size = float(np.linalg.norm(np.subtract(*source.bounds())))
         self._solids: dict[int, Any] = {}
         self._found: dict[tuple[float, ...], tuple[Any | None, bool] | UncuttableError] = {}
@@ -156,20 +157,20 @@ class _PrototypeCutter:
         An error where OpenCASCADE cannot cut it.
         """
         from hlr.source.cad.closing import as_solid
-        from hlr.source.cad.half_space import cut_away
+        from hlr.source.cad.half_space import cut_at, cut_away
         from hlr.source.cad.parts import Leaf
 
-        point, normal = self._plane
-        turned = part.transform[:3, :3].T @ normal
-        scale = float(np.linalg.norm(turned))
-        turned, height = turned / scale, float(normal @ (point - part.transform[:3, 3])) / scale
-        key = part.prototype, *np.round([*turned, height / self._size], SAME).tolist()
+        planes = self._planes.before(part.transform)
+        ends = np.concatenate([planes.levels, planes.steps]) / self._size
+        turned = [*planes.normal, *(planes.along if len(planes.steps) else ())]
+        key = part.prototype, *np.round([*turned, *ends], SAME).tolist()
         if key not in self._found:
             if part.prototype not in self._solids:
                 self._solids[part.prototype] = as_solid(self._shapes[part.prototype], self._size)
             leaf = Leaf(self._solids[part.prototype], part.name)
             try:
-                left = cut_away([leaf], height * turned, turned)
+                at = planes.levels[0] * planes.normal
+                left = cut_at([leaf], planes, at) if len(planes.steps) else cut_away([leaf], at, planes.normal)
             except UncuttableError as error:
                 self._found[key] = error
             else:
@@ -177,12 +178,11 @@ class _PrototypeCutter:
         return self._found[key]
 
 
-def _cut_meshes(source: MeshSource, plane: Plane, whole: list[str], crossed: list[str]) -> CutSource | None:
+def _cut_meshes(source: MeshSource, planes: Planes, whole: list[str], crossed: list[str]) -> CutSource | None:
     from hlr.source.mesh.half_space import cut_mesh
 
-    origin, normal = np.array(plane.point), np.array(plane.normal)
     parts = {part.name: part for part in source.parts}
-    cut = {name: cut_mesh(parts[name], origin, normal, plane.near) for name in crossed}
+    cut = {name: cut_mesh(parts[name], planes.stepped(), planes.near) for name in crossed}
     gone = [name for name in parts if name not in whole and name not in cut]
     pieces = {name: [(piece.points, piece.triangles) for piece in cut.get(name, ())] for name in [*cut, *gone]}
     left, whose = source.with_pieces(pieces)

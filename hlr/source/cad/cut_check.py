@@ -1,4 +1,4 @@
-"""Whether OpenCASCADE has cut a shape at a plane as it should: it may leave all of it, lose it, or leave it open."""
+"""Whether OpenCASCADE has cut a shape at planes as it should: it may leave all of it, lose it, or leave it open."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from hlr.common.types import Floats
 from hlr.source.cad.occt_collections import new_collection
 from hlr.source.cad.shapes import sub_shapes
+from hlr.source.stepped import Stepped
 
 NEAR = 1e-6
 """Of the size of a shape: what lies so close to the plane may lie on either side of it."""
@@ -21,10 +22,10 @@ MOST_OFF = 0.01
 
 
 class CutCheck:
-    """What a cut must do to a shape. origin, normal (3,): of the plane, the normal of length 1; size: of the shape."""
+    """What a cut must do to a shape. planes: before which nothing stays; size: of the shape."""
 
-    def __init__(self, shape: Any, origin: Floats, normal: Floats, size: float) -> None:
-        self._shape, self._plane = shape, (origin, normal)
+    def __init__(self, shape: Any, planes: Stepped, size: float) -> None:
+        self._shape, self._planes = shape, planes
         self._near = NEAR * size + min(OFF * _tolerance(shape), MOST_OFF * size)
         self._closed = is_closed(shape)
         heights = self._heights(shape)
@@ -54,8 +55,7 @@ class CutCheck:
         return left is not None and self._closed and is_closed(left) and 0.0 < volume(left) < volume(self._shape)
 
     def _heights(self, shape: Any) -> Floats:
-        origin, normal = self._plane
-        return np.asarray((_points(shape) - origin) @ normal)
+        return self._planes.heights(_points(shape), self._near)
 
 
 def has_surfaces(shape: Any) -> bool:

@@ -1,4 +1,4 @@
-"""Shapes cut by a plane, by OpenCASCADE: what lies on one side of it is taken away, and solids are closed there."""
+"""Shapes cut by planes, by OpenCASCADE: what lies on one side is taken away, and solids are closed there."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from hlr.source.cad.part_shapes import OcctShapes
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.shape_measures import ShapeMeasures
 from hlr.source.cad.shapes import make_compound, sub_shapes
+from hlr.source.stepped import Stepped
 
 NEAR = 1e-9
 """Of the size of a shape: a plane that comes no deeper into it than this only touches it."""
@@ -49,9 +50,16 @@ def cut_away(leaves: Sequence[Leaf], origin: Floats, normal: Floats) -> list[Lea
         UncuttableError: OpenCASCADE cannot cut one of them.
     """
     normal = normal / float(np.linalg.norm(normal))
+    axes = _axes(origin, normal)
+    along = np.array([axes.XDirection().X(), axes.XDirection().Y(), axes.XDirection().Z()])
+    return cut_at(leaves, Stepped(normal, along, np.array([origin @ normal]), np.zeros(0)), origin)
+
+
+def cut_at(leaves: Sequence[Leaf], planes: Stepped, origin: Floats) -> list[Leaf]:
+    """The same, by planes that may step. origin (3,): a point on the first of them."""
     found = []
     for leaf in leaves:
-        cut = [_cut(piece, origin, normal, leaf.name) for piece, _ in OcctShapes().pieces(leaf.shape)]
+        cut = [_cut(piece, planes, origin, leaf.name) for piece, _ in OcctShapes().pieces(leaf.shape)]
         pieces = [piece for piece in cut if piece is not None]
         if pieces:
             shape = pieces[0] if len(pieces) == 1 else make_compound(pieces)
@@ -59,22 +67,25 @@ def cut_away(leaves: Sequence[Leaf], origin: Floats, normal: Floats) -> list[Lea
     return found
 
 
-def _cut(shape: Any, origin: Floats, normal: Floats, name: str) -> Any | None:
-    """A shape without what lies beyond the plane; None where that is all of it."""
+def _cut(shape: Any, planes: Stepped, origin: Floats, name: str) -> Any | None:
+    """A shape without what lies beyond the planes; None where that is all of it."""
+    normal, steps = planes.normal, len(planes.steps) > 0
     box = _box(shape, origin, normal)
     if box is None:
         return None
     size = float(np.linalg.norm(box[1] - box[0]))
     low, high = box[:, 2]
-    if high <= NEAR * size:
+    lowest, highest = float(planes.levels.min() - planes.levels[0]), float(planes.levels.max() - planes.levels[0])
+    if high <= lowest + NEAR * size:
         return shape
-    if low >= -NEAR * size:
+    if low >= highest - NEAR * size:
         return None
     if not has_surfaces(shape):
         why = "its faces are triangles without surfaces"
         raise UncuttableError(name, why, "export it as a solid or as a mesh")
-    block = _block(origin, normal, 0.5 * (box[0] + box[1]), 2.0 * size)
-    check = CutCheck(shape, origin, normal, size)
+    middle = 0.5 * (box[0] + box[1])
+    block = _prism(planes, origin, middle, size) if steps else _block(origin, normal, middle, 2.0 * size)
+    check = CutCheck(shape, planes, size)
     found: list[Any | None] = []
     for share in (0.0, *LOOSER):
         left = _without(shape, block, share * size)
@@ -83,7 +94,7 @@ def _cut(shape: Any, origin: Floats, normal: Floats, name: str) -> Any | None:
         if check.is_sound(left):
             return left
         found.append(left)
-    if not found:
+    if not found and not steps:
         left = _without(shape, _half_space(origin, normal, 2.0 * size), 0.0)
         if left is not _FAILED and check.is_cut(left, left is shape) and check.is_piece(left):
             return left
@@ -118,6 +129,33 @@ def _block(origin: Floats, normal: Floats, middle: Floats, size: float) -> Any:
     corner = origin + (middle[0] - size) * x + (middle[1] - size) * y
     axes.SetLocation(gp_Pnt(*corner.tolist()))
     return BRepPrimAPI_MakeBox(axes, 2.0 * size, 2.0 * size, size).Shape()
+
+
+def _prism(planes: Stepped, origin: Floats, middle: Floats, size: float) -> Any:
+    """What lies before planes that step, as far as a shape with this box of `_box` reaches."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakePolygon
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
+    from OCP.gp import gp_Pnt, gp_Vec
+
+    axes = _axes(origin, planes.normal)
+    x, y = (np.array([way.X(), way.Y(), way.Z()]) for way in (axes.XDirection(), axes.YDirection()))
+    centre = origin + middle[0] * x + middle[1] * y + middle[2] * planes.normal
+    across = np.cross(planes.normal, planes.along)
+    begin, end = (float(centre @ planes.along) + sense * 2.0 * size for sense in (-1.0, 1.0))
+    top = max(float(centre @ planes.normal), float(planes.levels.max())) + 2.0 * size
+    between = np.flatnonzero((planes.steps > begin) & (planes.steps < end))
+    first = int(np.searchsorted(planes.steps, begin))
+    profile = [(begin, planes.levels[first])]
+    for k in between.tolist():
+        profile += [(planes.steps[k], planes.levels[k]), (planes.steps[k], planes.levels[k + 1])]
+    profile += [(end, profile[-1][1]), (end, top), (begin, top)]
+    polygon = BRepBuilderAPI_MakePolygon()
+    for at, level in profile:
+        corner = at * planes.along + level * planes.normal + (float(centre @ across) - 2.0 * size) * across
+        polygon.Add(gp_Pnt(*corner.tolist()))
+    polygon.Close()
+    face = BRepBuilderAPI_MakeFace(polygon.Wire(), True).Face()
+    return BRepPrimAPI_MakePrism(face, gp_Vec(*(4.0 * size * across).tolist())).Shape()
 
 
 def _half_space(origin: Floats, normal: Floats, size: float) -> Any:

@@ -1,4 +1,4 @@
-"""Meshes cut by a plane: what lies on one side of it is taken away. Closed bodies are closed there, by manifold3d."""
+"""Meshes cut by planes: what lies on one side of them is taken away. Closed bodies are closed there, by manifold3d."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from hlr.common.types import Floats, Ints
 from hlr.source.mesh.clipping import clipped
 from hlr.source.mesh.closed import of_closed_bodies
 from hlr.source.model import PartMesh
+from hlr.source.stepped import Stepped
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -26,14 +27,17 @@ class MeshPiece:
     cut: bool
 
 
-def cut_mesh(part: PartMesh, origin: Floats, normal: Floats, near: float) -> list[MeshPiece]:
-    """A part without what lies on the side to which the normal points: its closed bodies, and those that are open.
+def cut_mesh(part: PartMesh, planes: Stepped, near: float) -> list[MeshPiece]:
+    """A part without what lies before planes: its closed bodies, and those that are open.
 
-    origin, normal (3,): of the plane, the normal of length 1; near: what is no farther from it lies on it, model units
+    near: what is no farther from a plane lies on it, model units
     """
     # Numbers near zero lose nothing where the plane is set against them.
     middle = 0.5 * (part.points.min(axis=0) + part.points.max(axis=0))
     points, triangles = part.points - middle, part.triangles
+    place = np.eye(4)
+    place[:3, 3] = middle
+    planes = planes.before(place)
     outward = triangles
     a, b, c = points[triangles].transpose(1, 0, 2)
     if float((np.cross(a, b) * c).sum()) < 0.0:  # turned inside out
@@ -44,22 +48,36 @@ def cut_mesh(part: PartMesh, origin: Floats, normal: Floats, near: float) -> lis
         closed = of_closed_bodies(joined, len(points))
         body = _body(points, outward[closed])[0] if closed.any() else None
         closed &= body is not None
-    heights = points @ normal + float((middle - origin) @ normal)
     pieces = []
     for rows, is_closed in ((closed, True), (~closed, False)):
         if not rows.any():
             continue
-        reach = heights[triangles[rows]]
+        low, high = planes.reach(points[triangles[rows]].reshape(-1, 3))
         if body is not None and is_closed:
-            left = body.trim_by_plane((-normal).tolist(), float((middle - origin) @ normal)).to_mesh64()
+            left = _without(body, planes, float(np.abs(points).max())).to_mesh64()
             found = np.asarray(left.vert_properties)[:, :3], np.asarray(left.tri_verts).astype(np.int32)
         else:
-            found = clipped(points, triangles[rows], normal, heights, near)
+            found = clipped(points, triangles[rows], planes, near)
         if len(found[1]):
-            pieces.append(
-                MeshPiece(found[0] + middle, found[1], is_closed, bool(reach.min() < -near < near < reach.max()))
-            )
+            pieces.append(MeshPiece(found[0] + middle, found[1], is_closed, low < -near < near < high))
     return pieces
+
+
+def _without(body: Any, planes: Stepped, size: float) -> Any:
+    """A body without what lies before planes. size: how far it reaches from the origin along each axis, at most."""
+    if not len(planes.steps):
+        return body.trim_by_plane((-planes.normal).tolist(), -float(planes.levels[0]))
+    from manifold3d import Manifold
+
+    far = 2.0 * size
+    axes = np.stack([planes.along, np.cross(planes.normal, planes.along), planes.normal], axis=1)
+    for begin, end, level in planes.blocks():
+        low = np.array([max(begin, -far), -far, level])
+        high = np.array([min(end, far), far, far])
+        if (high > low).all():
+            block = Manifold.cube((high - low).tolist()).transform(np.column_stack([axes, axes @ low]))
+            body = body - block
+    return body
 
 
 def _body(points: Floats, triangles: Ints) -> tuple[Any | None, Ints]:

@@ -1,0 +1,86 @@
+"""Where the plane of a section steps, the section has no line (ISO 128): it is drawn as if all lay in one plane."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from hlr.common.types import Floats
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.line import Line
+from hlr.linework.hatch_strokes import inside, uncovered
+from hlr.linework.hatching import sides_of
+from hlr.pipeline.section.plane import Planes
+
+CLOSE = 1e-6
+"""Of the size of a drawing: lines lie so close to the step that has made them."""
+
+
+def without_jogs(
+    drawing: Drawing, planes: Planes, cut: Sequence[tuple[str, list[Floats]]], whose: Mapping[str, str]
+) -> Drawing:
+    """A drawing without the edges that steps have made where a part is cut on both sides of them.
+
+    cut: of each cut face the name of the whole part, and its loops (k, 2), millimetres on paper
+    whose: the whole part of each part, by name
+    """
+    sides = {name: sides_of([loop for each, loops in cut if each == name for loop in loops]) for name, _ in cut}
+    owner = [whose[part.name] for part in drawing.parts]
+    area = drawing.area
+    close = CLOSE * float(np.hypot(area.width, area.height))
+    along, lines = np.array(planes.along), list(drawing.lines)
+    turned = 1.0 if along @ np.array(drawing.view.right) > 0.0 else -1.0
+    for step, (a, b) in zip(planes.steps, pairwise(planes.planes), strict=True):
+        x = turned * step * drawing.scale * drawing.unit - drawing.origin[0]
+        levels = sorted((a.height, b.height))
+        kept: list[Line] = []
+        for line in lines:
+            of_part = sides.get(owner[line.part]) if line.kind == "sharp" else None
+            on_step = of_part is not None and _is_on_step(line, x, close, levels, planes)
+            kept += _outside(line, x, close, of_part) if of_part is not None and on_step else [line]
+        lines = kept
+    removed = len(drawing.lines) - len(lines)
+    counters = {**drawing.counters, "lines": drawing.counters.get("lines", 0) - removed}
+    return replace(drawing, lines=tuple(lines), counters=counters)
+
+
+def _is_on_step(line: Line, x: float, close: float, levels: Sequence[float], planes: Planes) -> bool:
+    """Whether a line lies on a step: on paper, and between the two planes."""
+    if not (np.abs(line.points[:, 0] - x) <= close).all():
+        return False
+    heights = line.points3 @ np.array(planes.normal)
+    return bool(heights.min() >= levels[0] - planes.near and heights.max() <= levels[1] + planes.near)
+
+
+def _outside(line: Line, x: float, close: float, sides: Floats) -> list[Line]:
+    """What is left of a line where faces with these sides do not lie on both sides of it."""
+    ends = np.array([line.points[0], line.points[-1]])
+    ends[:, 0] = x
+    shift = np.array([2.0 * close, 0.0])
+    # Both sides: what lies inside to the left, of what lies inside to the right.
+    right = inside((ends + shift)[None], sides, winding=True) - 2.0 * shift
+    both = inside(right, sides, winding=True) + shift
+    if not len(both):
+        return [line]
+    gone = np.stack([both[:, 0], both[:, 1]], axis=1)
+    left = uncovered(ends[None], _as_loops(gone, close))
+    share = (left[..., 1] - ends[0, 1]) / (ends[1, 1] - ends[0, 1])
+    way = line.points3[-1] - line.points3[0]
+    return [
+        replace(line, points=piece, points3=line.points3[0] + each[:, None] * way, curve=None)
+        for piece, each in zip(left, share, strict=True)
+        if abs(each[1] - each[0]) * np.hypot(*(ends[1] - ends[0])) > 4.0 * close
+    ]
+
+
+def _as_loops(pieces: Floats, close: float) -> Floats:
+    """Narrow boxes around upright pieces (n, 2, 2), as sides, anticlockwise."""
+    found = [np.zeros((0, 2, 2))]
+    for piece in pieces:
+        x, (low, high) = piece[0, 0], np.sort(piece[:, 1])
+        low, high = low - close, high + close
+        found.append(sides_of([np.array([(x - close, low), (x + close, low), (x + close, high), (x - close, high)])]))
+    return np.concatenate(found)
