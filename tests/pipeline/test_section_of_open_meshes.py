@@ -94,6 +94,15 @@ def test_open_parts_of_an_assembly_may_stay_whole_and_are_not_cut_where_their_bo
     assert beside_it.section.parts == (0,) and not unhatched(beside_it)
 
 
+def test_closed_bodies_of_one_mesh_on_both_sides_of_the_plane_are_not_said_to_be_open():
+    points, triangles = mesh_of(cq.Workplane().box(10, 10, 10))
+    both = (
+        np.concatenate([points - [0, 20, 0], points + [0, 20, 0]]),
+        np.concatenate([triangles, triangles + len(points)]),
+    )
+    assert unhatched(section(both)) == ["the plane of section front goes through no part: nothing is hatched."]
+
+
 def test_names_stay_unique():
     mixed = beside(mesh_of(plate()), tray())
     drawing = section(as_scene(**{"body": mixed, "body:2": (mixed[0] + [0, 0, 100], mixed[1])}))

@@ -179,6 +179,17 @@ def test_faces_on_which_others_rest_are_hatched_as_far_as_their_own_plane_reache
     assert found["plate"][:, 0].max() == pytest.approx(4.0) == found["boss"][:, 0].min()
 
 
+def test_a_part_that_a_step_alone_cuts_is_not_said_to_have_no_hatch():
+    """The bar lies behind the plane at the left, and before the one at the right."""
+    bar, wall = cq.Workplane().box(80, 10, 10), cq.Workplane().box(80, 10, 40).translate((0, 20, 0))
+    post = cq.Workplane().box(10, 10, 10).translate((-35, -12, 15))
+    drawing = section([bar, wall, post], "front", (-8.0, (10.0, 18.0)))
+    assert [drawing.parts[k].name for k in drawing.section.parts] == ["part:2", "part:3"]
+    assert not drawing.notes
+    # Its end is seen from its edge.
+    assert (15.0, 25.0) in upright([line for line in at_step(drawing, 10.0) if drawing.parts[line.part].name == "part"])
+
+
 def test_equal_parts_that_planes_cut_alike_are_cut_once(monkeypatch):
     from hlr.source.cad import half_space
 

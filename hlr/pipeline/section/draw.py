@@ -8,6 +8,8 @@ from time import perf_counter
 from typing import Any
 from weakref import WeakKeyDictionary
 
+import numpy as np
+
 from hlr.common.clock import lap
 from hlr.common.types import Progress
 from hlr.drawing.drawing import Drawing
@@ -26,6 +28,9 @@ from hlr.source.cad.brep_source import BrepSource
 from hlr.source.mesh.mesh_source import MeshSource
 from hlr.source.model import Source
 from hlr.source.selection import matching, open_selected
+
+AT_PLANE = 100.0
+"""Times what lies so close to a plane lies on it: how far off it a part may end that was cut there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,7 +151,7 @@ def _finished(drawing: Drawing, session: Session, cut: _Cut, whole: Source, view
     """The drawing with its hatches, and what is to be said about them."""
     started, clock = perf_counter(), dict(drawing.timings)
     drawing = with_hatches(drawing, session, cut.planes, cut.source, whole)
-    notes = *drawing.notes, *_failed(view, cut), *_notes(drawing, cut, directed(view)[0])
+    notes = *drawing.notes, *_failed(view, cut), *_notes(drawing, session, cut, directed(view)[0])
     drawing = replace(drawing, notes=notes)
     lap(clock, "linework", started)
     clock["total"] = sum(seconds for stage, seconds in clock.items() if stage != "total")
@@ -166,17 +171,18 @@ def _failed(view: View, cut: _Cut) -> list[Note]:
     return notes
 
 
-def _notes(drawing: Drawing, cut: _Cut, name: str) -> list[Note]:
+def _notes(drawing: Drawing, session: Session, cut: _Cut, name: str) -> list[Note]:
     """What is said of a section that does not show all that one expects of it."""
     assert drawing.section is not None
     hatched = {cut.source.whose[drawing.parts[k].name] for k in drawing.section.parts}
     are_open = {cut.source.whose[part] for part, is_cut in cut.source.open.items() if is_cut}
-    unhatched = sorted(are_open or cut.source.cut - hatched)
+    at_plane = _at_plane(session, cut)
+    unhatched = sorted((are_open or cut.source.cut - hatched) & at_plane)
     if cut.planes.touching:
         text = f"the plane of section {name} only touches the model: nothing is taken away."
     elif not cut.source.cut and not hatched and cut.source.through:
         text = f"all parts that the plane of section {name} goes through stay whole: nothing is hatched."
-    elif not cut.source.cut and not hatched:
+    elif not cut.source.cut & at_plane and not hatched:
         text = f"the plane of section {name} goes through no part: nothing is hatched."
     elif unhatched:
         several = f"{len(unhatched)} parts that it cuts, such as" if len(unhatched) > 1 else "it cuts"
@@ -186,3 +192,13 @@ def _notes(drawing: Drawing, cut: _Cut, name: str) -> list[Note]:
     else:
         return []
     return [Note("section-not-hatched", text)]
+
+
+def _at_plane(session: Session, cut: _Cut) -> set[str]:
+    """Names of the parts that reach a plane. Others are cut by its steps alone, or have bodies on both sides of it."""
+    planes, near = cut.planes.stepped(), AT_PLANE * cut.planes.near
+    return {
+        cut.source.whose[part.name]
+        for part in session.parts
+        if len(part.points) and float(np.abs(planes.heights(part.points)).min()) <= near
+    }
