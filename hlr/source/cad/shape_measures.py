@@ -8,6 +8,7 @@ import numpy as np
 
 from hlr import _kernel
 from hlr.common.types import Floats
+from hlr.source.cad.cut_check import volume as exact_volume
 from hlr.source.cad.prototypes import LivePrototypes
 from hlr.source.cad.shapes import location_matrix, with_location
 
@@ -56,13 +57,4 @@ class ShapeMeasures:
 def is_inside_out(solid: Any) -> bool:
     """Whether the volume of a solid is negative."""
     volume = ShapeMeasures(solid).volume()
-    return (_exact_volume(solid) if volume is None else volume) < 0.0
-
-
-def _exact_volume(shape: Any) -> float:
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GProp import GProp_GProps
-
-    found = GProp_GProps()
-    BRepGProp.VolumeProperties_s(shape, found)
-    return float(found.Mass())
+    return (exact_volume(solid) if volume is None else volume) < 0.0
