@@ -46,7 +46,7 @@ def summary(drawings: Sequence[Drawing], targets: Targets) -> bytes:
     from dataclasses import asdict
 
     from hlr.tables.documents import head
-    from hlr.writers.json import accuracies
+    from hlr.writers.json_records import accuracies
 
     entries = [
         {

@@ -87,7 +87,7 @@ def _facts(drawing: Drawing, writing: float) -> dict[str, Any]:
     """What the report says of a drawing. writing: seconds."""
     import json
 
-    from hlr.writers.json import accuracies
+    from hlr.writers.json_records import accuracies
 
     bounds, visible = drawing.bounds, sum(bool(line.visible) for line in drawing.lines)
     facts = {

@@ -143,9 +143,6 @@ def _check_options(manifest: Manifest, jobs: Sequence[Job]) -> None:
         if (job.rule, job.views) in seen:
             continue
         seen.add((job.rule, job.views))
-        if job.arrange and "json" in job.formats:
-            text = "a page of several views cannot be written as JSON: use svg, pdf, dxf or png"
-            raise manifest.error((*job.rule, "formats"), text)
         options = {name: value for name, value in job.options.items() if name != "parameters"}
         try:
             check(options, job.views, job.root, job.arrange)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -21,6 +22,8 @@ class SheetView:
     letter     of a section: A for A-A; empty where the model is whole
     direction  toward the viewer, in the model
     right      the direction in the model that points to the right on paper, before the rotation
+    origin     millimetres: a point P of the model lies at ((P . right, P . up) * unit * scale, turned by the rotation)
+               less this, with up = direction x right. None: the view is in perspective
     """
 
     name: str
@@ -31,6 +34,7 @@ class SheetView:
     direction: tuple[float, float, float]
     right: tuple[float, float, float]
     letter: str = ""
+    origin: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,9 +47,17 @@ class Sheet:
     template  what is printed under them, and texts beside them, as SVG elements in millimetres from the page's upper
               left corner
     marks     of the sections among arranged views
+    texts     in the fields of the template, such as those of its title block, by their keys
     """
 
     views: tuple[SheetView, ...]
     template: str = ""
     method: str = ""
     marks: tuple[SectionMark, ...] = ()
+    texts: Mapping[str, str] = field(default_factory=dict, hash=False)
+
+
+def views_of_parts(parts: Sequence[str], views: Sequence[str]) -> list[int]:
+    """Of each part of a sheet the number of its view; -1: none. parts, views: their names."""
+    numbers = {name: number for number, name in enumerate(views)}
+    return [numbers.get(part.partition("/")[0], -1) for part in parts]

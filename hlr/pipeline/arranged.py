@@ -83,6 +83,10 @@ class Printed:
         """The template with its texts; empty without one. scale: of the views, paper : model."""
         return "" if self.template is None else self.template.filled(self.texts, ratio(scale))
 
+    def stated(self, scale: float) -> dict[str, str]:
+        """What then stands in the fields of the template, by their keys."""
+        return {} if self.template is None else self.template.texts(self.texts, ratio(scale))
+
     def notes(self) -> list[Note]:
         """What is said about the template."""
         if self.template is None or self.room is not None or self.template.rooms:
@@ -216,8 +220,8 @@ def _together(
         scale=found.scale,
         origin=(0.0, 0.0),
         accuracy=replace(coarsest, asked=options.accuracy),
-        unit=1.0,
-        up_axis=((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+        unit=drawings[0].unit,
+        up_axis=drawings[0].up_axis,
         parts=tuple(parts),
         lines=(*shown.lines, *hatches) if hatches else shown.lines,
         notes=tuple(dict.fromkeys((*_notes(drawings), *shown.notes, *printed.notes(), *marking))),
@@ -228,6 +232,7 @@ def _together(
             printed.svg(found.scale),
             asked.method.name,
             tuple(marks.values()),
+            printed.stated(found.scale),
         ),
         style=style,
         group=shown.group,
@@ -317,4 +322,5 @@ def _of_scale(sizes: Sequence[Size], found: Arrangement, fits: float) -> list[No
 def _shown(placed: _Placed, scale: float, marks: Mapping[str, SectionMark]) -> SheetView:
     view, mark = placed.drawing.view, marks.get(placed.name)
     letter = "" if mark is None else mark.letter
-    return SheetView(placed.name, view.name, scale, placed.place, 0.0, view.direction, view.right, letter)
+    x, y = (np.array(placed.drawing.origin) - placed.shift).tolist()
+    return SheetView(placed.name, view.name, scale, placed.place, 0.0, view.direction, view.right, letter, (x, y))

@@ -17,7 +17,7 @@ from hlr.errors import OptionError, SourceError
 from hlr.source.archive import xml_tree
 from hlr.source.file_checks import check_readable
 from hlr.source.freecad.properties import DamagedError
-from hlr.source.freecad.template import SVG, editable, filled_template
+from hlr.source.freecad.template import SVG, editable, field_texts, filled_template
 from hlr.tables.entry import listed
 from hlr.tables.sheets import LARGEST_SIDE
 
@@ -62,8 +62,15 @@ class PageTemplate:
 
     def filled(self, texts: Mapping[str, str], scale: str) -> str:
         """The template as an SVG element with texts in its fields; the scale goes into a field of that name."""
+        return filled_template(self.data, self._given(texts, scale), (self.width, self.height), self.path)
+
+    def texts(self, texts: Mapping[str, str], scale: str) -> dict[str, str]:
+        """What then stands in each of its fields, by its key."""
+        return field_texts(self.data, self._given(texts, scale), self.path)
+
+    def _given(self, texts: Mapping[str, str], scale: str) -> dict[str, str]:
         scales = {key: scale for key in self.fields if key.lower().removeprefix("fc-") in SCALES}
-        return filled_template(self.data, {**scales, **texts}, (self.width, self.height), self.path)
+        return {**scales, **texts}
 
 
 def read_page_template(path: Path) -> PageTemplate:

@@ -10,6 +10,7 @@ from typing import Any
 
 VERSIONS = {
     "hlr-drawing": 2,
+    "hlr-page": 1,
     "hlr-summary": 1,
     "hlr-plan": 1,
     "hlr-info": 1,

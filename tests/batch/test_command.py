@@ -264,7 +264,6 @@ def test_a_change_since_the_baseline_is_exit_code_3(hlr_batch):
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ("formats = ['svg', 'json']", "formats: a page of several views cannot be written as JSON"),
         ("fit = 'A4'", "fit: only a view by itself has fit: leave out the option fit, or arrange."),
     ],
 )
@@ -281,3 +280,12 @@ def test_an_arranged_page_on_the_command_line(hlr_batch):
     tetrahedron(hlr_batch.folder / "part.off", 1)
     done = hlr_batch("part.off", "--arrange", "first-angle", "--list")
     assert [line.rpartition("/")[2] for line in done.stdout.split()] == ["part-first-angle.svg"]
+
+
+@pytest.mark.slow
+def test_an_arranged_page_as_json(hlr_batch):
+    tetrahedron(hlr_batch.folder / "part.off", 1)
+    done = hlr_batch("part.off", "--arrange", "first-angle", "--format", "json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads((hlr_batch.folder / "drawings/part-first-angle.json").read_text("utf-8"))
+    assert [view["name"] for view in found["views"]] == ["front", "top", "left", "iso"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -52,6 +53,10 @@ def test_a_template_with_a_title(hlr_real, tmp_path):
     svg = (tmp_path / "a.svg").read_text("utf-8")
     assert 'width="420mm"' in svg
     assert ">Two = three<" in svg
+    done = hlr_real("draw", STEP, *page, "-o", "a.json", "-q")
+    assert (done.code, done.err) == (0, "")
+    found = json.loads((tmp_path / "a.json").read_text("utf-8"))
+    assert (found["format"], found["texts"]) == ("hlr-page", {"TITLE": "Two = three"})
     done = hlr_real("draw", STEP, *page, "-o", "a.dxf")
     assert 'warning: Page "third-angle": the template not drawn in a.dxf, which has the lines alone.' in done.err
 
@@ -72,7 +77,6 @@ def test_a_template_with_a_title(hlr_real, tmp_path):
         ((STEP, "--arrange", "first-angle", "--text", "A=1", "--text", "A=2"), "--text gives A twice"),
         ((STEP, "--template", "a.svg"), "--template is for --arrange"),
         ((STEP, "--room", "0,0,9,9"), "--room is for --arrange"),
-        ((STEP, "--arrange", "first-angle", "-o", "a.json"), "cannot be written as JSON"),
     ],
 )
 def test_what_cannot_be_is_refused(hlr_real, tmp_path, arguments, words):

@@ -53,7 +53,6 @@ def test_a_sheet_of_paper_is_still_one(hlr_real, tmp_path):
             "a page of a document is drawn as it is: leave out the option scale",
         ),
         ((HOUSING, "--all-pages", "--page", "A4"), "leave out the option page"),
-        ((HOUSING, "--page", "Page", "--format", "json"), "cannot be written as JSON"),
         ((STEP, "--all-pages"), "only FreeCAD documents (.FCStd) have pages"),
         ((STEP, "--page", "Blatt"), "no page is called 'Blatt'"),
     ],

@@ -8,11 +8,14 @@ from pathlib import Path
 import pytest
 
 import hlr
+from hlr.drawing.page import Page
 from hlr.drawing.reached import Errors, Labels, Reached
+from hlr.drawing.section_marks import SectionMark
+from hlr.drawing.sheet import Sheet, SheetView
 from hlr.request.style import LineRule, Style
 from hlr.tables.documents import VERSIONS
 from support.described_json import described
-from support.drawings import sample
+from support.drawings import drawing, line, part, sample
 
 PAGE = (Path(hlr.__file__).parent / "docs" / "json.md").read_text("utf-8")
 SECTIONS = dict(re.findall(r"^\| \[`([\w-]+)`\]\(#([\w-]+)\)", PAGE, re.MULTILINE))
@@ -67,6 +70,16 @@ def by_hand():
         for labels, bound in ((blind, None), (wrong, 0.4)):
             reached = Reached(0.05, some, some, some, nothing, some, some, bound, some, some, labels)
             yield json.loads(replace(sample(), style=asked, reached=reached).to_json())
+    eye = SheetView("box", "Box", 1.0, (9.0, 9.0), 0.0, (0.0, -1.0, 0.0), (1.0, 0.0, 0.0))
+    sheet = Sheet((eye,), marks=(SectionMark("A", (5.0, 5.0)),))
+    yield json.loads(
+        replace(
+            drawing([line([[0, 0], [9, 9]])], parts=[part("box/a")]),
+            sheet=sheet,
+            page=Page("A4", 297.0, 210.0, 0.0, 0.0),
+            group=(0.35, 0.18),
+        ).to_json()
+    )
 
 
 def of_draw(hlr_real):
@@ -80,6 +93,8 @@ def of_draw(hlr_real):
         (DATA / "freecad" / "spring.step", "--accuracy", "0.1"),
         (DATA / "soup.stl", "--fit", "30x30"),
         (BOX, "--section", "front"),
+        (BOX, "--arrange", "first-angle", "--section", "front", "--hidden"),
+        (HOUSING, "--page", "Page"),
     ):
         yield json.loads(hlr_real("draw", *arguments, "-o", "a.json", "--json").out)
         yield read("a.json")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import json
 from pathlib import Path
 from xml.etree import ElementTree
 from zipfile import ZipFile
@@ -11,7 +13,7 @@ import pytest
 
 import hlr
 from hlr.drawing.lines import bounds_of
-from hlr.errors import OptionError, SourceError, StrictError, WriteError
+from hlr.errors import OptionError, SourceError, StrictError
 from support import freecad_document as fc
 from support.freecad_document import flag, item, kept, link, links, number, placement, text, vector, whole, write
 
@@ -305,8 +307,23 @@ def test_files(tmp_path):
     (drawing,) = hlr.draw_pages(page(tmp_path, {"Front": view()}))
     assert drawing.to_pdf().startswith(b"%PDF")
     assert b"LWPOLYLINE" in drawing.to_dxf() or b"LINE" in drawing.to_dxf()
-    with pytest.raises(WriteError, match="several views cannot be written as JSON"):
-        drawing.to_json()
+    (found,) = json.loads(drawing.to_json())["views"]
+    assert (found["name"], found["place"], len(found["lines"])) == ("Front", [100.0, 50.0], len(drawing.lines))
+
+
+def test_json_says_where_points_of_the_model_lie(tmp_path):
+    views = {"Front": view(Rotation=number(30.0)), "Eye": view(Perspective=flag(True), Focus=number(100.0))}
+    (drawing,) = hlr.draw_pages(page(tmp_path, views))
+    document = json.loads(drawing.to_json())
+    front, eye = document["views"]
+    assert (front["rotation"], eye["origin"]) == (30.0, None)
+    turn = np.radians(30.0)
+    matrix = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    for line in front["lines"]:
+        flat = np.array(line["points3"]) @ np.array([front["right"], front["up"]]).T * front["scale"]
+        assert flat @ matrix.T - front["origin"] == pytest.approx(np.array(line["points"]), abs=1e-9)
+    assert document["texts"] == {"Title": "a < b", "None": "stays"}
+    assert hlr.load(io.StringIO(drawing.to_json())) == drawing
 
 
 def test_a_real_page():

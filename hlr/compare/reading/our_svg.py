@@ -7,10 +7,10 @@ import re
 from typing import TYPE_CHECKING
 
 from hlr.compare.lines.sketch import About, Sketch, Trait
-from hlr.compare.lines.views import views_of_parts
 from hlr.compare.reading.path_data import add_path
 from hlr.compare.reading.stated_view import stated_in
 from hlr.compare.reading.svg_elements import SVG
+from hlr.drawing.sheet import views_of_parts
 from hlr.request.scale import scale_of
 from hlr.tables.line_classes import LINE_CLASSES
 

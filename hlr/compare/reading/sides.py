@@ -12,11 +12,11 @@ import numpy as np
 
 from hlr.compare.lines.pieces import Floats, Pieces
 from hlr.compare.lines.sketch import About, Sketch, Trait
-from hlr.compare.lines.views import views_of_parts
 from hlr.compare.reading.stated_view import stated_by
 from hlr.compare.reading.svg import read_svg
 from hlr.drawing.curve import Arc, raised
 from hlr.drawing.drawing import Drawing
+from hlr.drawing.sheet import views_of_parts
 from hlr.errors import SourceError
 from hlr.source.file_checks import check_readable
 from hlr.source.model import Source

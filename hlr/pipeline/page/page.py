@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
 from hlr.drawing.line import Line
 from hlr.drawing.lines import bounds_of
@@ -81,7 +83,7 @@ def drawn_page(
         lines=tuple(content.lines),
         notes=tuple(dict.fromkeys(content.notes)),
         page=_paper(page, content.lines),
-        sheet=Sheet(tuple(_shown(each) for each in content.views), content.template),
+        sheet=Sheet(tuple(_shown(each) for each in content.views), content.template, texts=page.texts),
         style=_style(page) if options.style is None else style_of(options.style),
     )
     return drawing, content.views, refused
@@ -118,8 +120,13 @@ def _print(content: _Content, page: DocumentPage) -> None:
 
 
 def _shown(placed: PlacedView) -> SheetView:
-    view = placed.view
-    return SheetView(view.name, view.label, view.scale, view.place, view.rotation, view.direction, view.right)
+    view, origin = placed.view, None
+    if view.focus is None:
+        x, y = (placed.matrix @ np.array(placed.drawing.origin) - placed.shift).tolist()
+        origin = x, y
+    return SheetView(
+        view.name, view.label, view.scale, view.place, view.rotation, view.direction, view.right, origin=origin
+    )
 
 
 def _left_out(what: str, page: DocumentPage) -> Note:

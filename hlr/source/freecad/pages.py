@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from hlr.source.freecad.added_lines import added_lines
 from hlr.source.freecad.document import Document, Object
 from hlr.source.freecad.page_items import Around, printed
 from hlr.source.freecad.page_views import VIEWS, PageView, clipped, view_of
-from hlr.source.freecad.template import filled_template
+from hlr.source.freecad.template import field_texts, filled_template
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +22,7 @@ class DocumentPage:
     size      width and height, millimetres; None where it has no template
     template  that and its texts, as SVG elements in millimetres from the upper left corner
     left_out  what of it is not drawn, for people
+    texts     in the fields of the template, by their keys
     """
 
     name: str
@@ -30,6 +31,7 @@ class DocumentPage:
     template: str
     views: tuple[PageView, ...]
     left_out: tuple[str, ...] = field(default=())
+    texts: Mapping[str, str] = field(default_factory=dict)
 
 
 def pages_of(document: Document, path: Path) -> list[DocumentPage]:
@@ -42,7 +44,7 @@ def pages_of(document: Document, path: Path) -> list[DocumentPage]:
 
 
 def _page(page: Object, document: Document, path: Path) -> DocumentPage:
-    size, svg = _template(page, document, path)
+    size, svg, texts = _template(page, document, path)
     items = list(_items(page, document))
     clips = {name: thing for thing, _ in items if thing.type in _CLIPS for name in thing.values.links("Views")}
     made = {thing.name: view_of(thing, group, page, document.objects) for thing, group in items if thing.type in VIEWS}
@@ -63,19 +65,24 @@ def _page(page: Object, document: Document, path: Path) -> DocumentPage:
         thing.values.link("Source") in views for thing in document.objects.values() if thing.type in _HATCHES
     ) + sum(view.cut_faces.unknown for view in views.values())
     left_out = [counted(count, noun, _SEVERAL.get(noun, "")) for noun, count in sorted(others.items()) if count]
-    return DocumentPage(page.name, page.label, size, svg, tuple(views.values()), tuple(left_out))
+    return DocumentPage(page.name, page.label, size, svg, tuple(views.values()), tuple(left_out), texts)
 
 
-def _template(page: Object, document: Document, path: Path) -> tuple[tuple[float, float] | None, str]:
-    """The size of a page, None where it has no template, and its template as SVG."""
+def _template(
+    page: Object, document: Document, path: Path
+) -> tuple[tuple[float, float] | None, str, Mapping[str, str]]:
+    """The size of a page, None where it has no template, its template as SVG, and the texts of its fields."""
     template = document.objects.get(page.values.link("Template"))
     if template is None:
-        return None, ""
+        return None, "", {}
     size = template.values.number("Width", 0.0), template.values.number("Height", 0.0)
     if min(size) <= 0.0:
-        return None, ""
+        return None, "", {}
     data = template.values.content("PageResult")
-    return size, filled_template(data, template.values.texts("EditableTexts"), size, path) if data else ""
+    if not data:
+        return size, "", {}
+    texts = template.values.texts("EditableTexts")
+    return size, filled_template(data, texts, size, path), field_texts(data, texts, path)
 
 
 def _added(thing: Object, view: PageView, size: tuple[float, float] | None, others: Counter[str]) -> str:

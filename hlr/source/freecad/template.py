@@ -31,6 +31,18 @@ def filled_template(data: bytes, texts: Mapping[str, str], size: tuple[float, fl
     return ElementTree.tostring(out, encoding="unicode")
 
 
+def field_texts(data: bytes, texts: Mapping[str, str], path: Path) -> dict[str, str]:
+    """The text of each field of a template that was filled in with these texts; the others keep their own.
+
+    Raises SourceError where it is no sound XML.
+    """
+    found: dict[str, str] = {}
+    for field in xml_tree(data, path, "a template", "FreeCAD").iter(f"{SVG}text"):
+        if key := editable(field):
+            found.setdefault(key, texts.get(key, "".join(field.itertext()).strip()))
+    return found
+
+
 def safe_svg(data: bytes, text_of: Callable[[int, str], str | None], path: Path, title: str) -> Element:
     """An SVG without what could run, or leads out of the file. title: for errors.
 
@@ -50,6 +62,16 @@ def safe_svg(data: bytes, text_of: Callable[[int, str], str | None], path: Path,
     out.attrib.update(_attributes(root))
     out.extend(_cleaned(root))
     return out
+
+
+def is_safe(elements: str, path: Path) -> bool:
+    """Whether SVG elements hold nothing that could run, or leads out of the file. path: for errors.
+
+    Raises SourceError where they are no sound XML.
+    """
+    root = xml_tree(f'<svg xmlns="{SVG[1:-1]}">{elements}</svg>'.encode(), path, "its template", "a page")
+    known = {f"{SVG}{name}" for name in (*_DRAWN, "svg")}
+    return all(each.tag in known and len(dict(_attributes(each))) == len(each.attrib) for each in root.iter())
 
 
 def editable(field: Element) -> str:
