@@ -45,6 +45,15 @@ class Lines:
         if outcome.failure is not None or not self.quiet:
             click.echo(f"{self._ended}/{self._total} {told(self._plan, number, outcome)}", err=True)
 
+    def out_of_time(self, left: int) -> None:
+        """As of `Listener`."""
+        those = "it" if left == 1 else "them"
+        click.echo(
+            f"the time of the batch is up: {left} of {self._total} sources {'is' if left == 1 else 'are'} not drawn; "
+            f"the next run goes on with {those}",
+            err=True,
+        )
+
     def __enter__(self) -> Lines:
         return self
 
@@ -91,6 +100,11 @@ class Display(Lines):
             self._live.console.print(told(self._plan, number, outcome), markup=False, highlight=False)
         if self._ended == self._total:
             self._stop()
+
+    def out_of_time(self, left: int) -> None:
+        """As of `Listener`."""
+        self._stop()
+        super().out_of_time(left)
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None

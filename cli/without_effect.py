@@ -190,9 +190,10 @@ _DRAWS = (
     "fail_on_change",
     "strict",
     "time_limit",
+    "total_time_limit",
     "no_cache",
 )
-_RUNS = ("jobs", "address", "baseline", "fail_on_change")
+_RUNS = ("jobs", "total_time_limit", "address", "baseline", "fail_on_change")
 
 ROWS: tuple[Row, ...] = (
     *(Row((name,), partial(_for_sources, of)) for name, of in OF_SOURCES.items()),

@@ -68,6 +68,13 @@ CHANGED = 3
     help="Give up a source that takes longer, and draw the rest: 60s, 5min. Default: what the manifest says, or 10min.",
 )
 @click.option(
+    "--total-time-limit",
+    type=Duration(),
+    metavar="TIME",
+    help="End the whole run after this time: 30min. What is drawn stays, the rest counts as failed, and the next run "
+    "goes on with it. Default: what the manifest says, or no limit.",
+)
+@click.option(
     "--on",
     "address",
     metavar="ADDRESS",
@@ -105,8 +112,9 @@ def batch(
       hlr batch parts --arrange third-angle --format pdf
       hlr batch "parts/**/*.step" -o drawings --format svg --format pdf
 
-    Exit codes: 0 all is drawn, 1 some sources failed and the rest is there, 2 the batch itself was wrong, or
-    --on found no workers that it could use to the end, 3 drawings differ from the baseline (--fail-on-change).
+    Exit codes: 0 all is drawn, 1 some sources failed, or the time was up, and the rest is there, 2 the batch
+    itself was wrong, or --on found no workers that it could use to the end, 3 drawings differ from the baseline
+    (--fail-on-change).
     """
     if init:
         return _init(sources)
@@ -166,6 +174,7 @@ class _Asked:
         arrange: str | None,
         strict: bool,
         time_limit: float | None,
+        total_time_limit: float | None,
     ) -> None:
         self._sources, self._output, self._strict = sources, output, strict
         self._given = {
@@ -173,6 +182,7 @@ class _Asked:
             "formats": list(formats),
             "arrange": arrange,
             "time_limit_s": time_limit,
+            "total_time_limit_s": total_time_limit,
         }
 
     @property

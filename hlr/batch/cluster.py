@@ -7,6 +7,7 @@ that the jobs of a worker that ends run elsewhere.
 
 from __future__ import annotations
 
+import math
 import time
 from collections import OrderedDict, deque
 from collections.abc import Iterator, Sequence
@@ -58,11 +59,14 @@ class DaskPool:
             self.close()
             raise
 
-    def run(self, jobs: Sequence[Job]) -> Iterator[Event]:
+    def run(self, jobs: Sequence[Job], deadline: float = math.inf) -> Iterator[Event]:
         """As of `hlr.batch.pool.Pool`. Raises ClusterError where the scheduler goes away, or all workers do."""
         ended: SimpleQueue[Any] = SimpleQueue()
         waiting = deque(enumerate(jobs))
         while waiting or self._out:
+            if (time_left := deadline - time.monotonic()) <= 0.0:
+                yield from self._given_up(jobs)
+                return
             while waiting and len(self._out) < self._room:
                 number, job = waiting.popleft()
                 if not Path(job.root, job.source).is_file() or (files := _contents(job)) is None:
@@ -73,8 +77,17 @@ class DaskPool:
                 future.add_done_callback(ended.put)
             self._look()
             with suppress(Empty):
-                future = ended.get(timeout=_GLANCE_S)
+                future = ended.get(timeout=min(_GLANCE_S, time_left))
                 number, _ = self._out.pop(future.key)
+                yield Event(number, outcome=self._outcome(jobs[number], future))
+
+    def _given_up(self, jobs: Sequence[Job]) -> Iterator[Event]:
+        """End all jobs that are out, but those that are drawn already."""
+        out = list(self._out.values())
+        self._out.clear()
+        self._client.cancel([future for _, future in out if future.status != "finished"], force=True)
+        for number, future in out:
+            if future.status == "finished":
                 yield Event(number, outcome=self._outcome(jobs[number], future))
 
     def close(self) -> None:

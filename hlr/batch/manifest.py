@@ -51,9 +51,10 @@ class Rule:
 class Manifest:
     """What is asked of a batch.
 
-    root   the folder that patterns start from
-    file   the manifest's own; None: there is none
-    text   of that file
+    root                the folder that patterns start from
+    file                the manifest's own; None: there is none
+    text                of that file
+    total_time_limit_s  seconds after which a run ends; 0: there is no limit
     """
 
     root: Path
@@ -61,6 +62,7 @@ class Manifest:
     rules: tuple[Rule, ...]
     file: Path | None = None
     text: str = ""
+    total_time_limit_s: float = 0.0
 
     def error(self, where: Where, message: str) -> OptionError:
         """An error about a value of the manifest: it names the file, the line and the key."""
@@ -139,8 +141,8 @@ def manifest_of(
         if "files" not in table:
             raise wrong((_TABLE, number), f"this [[{_TABLE}]] names no files")
         rules.append(_rule({**top, **table, **instead}, (*prefix, _TABLE, number), table))
-    output = top.get("output", KEYS["output"].default)
-    return Manifest(root, output, tuple(rules) or (_rule(top, prefix, top),), file, text)
+    output, limit = (top.get(name, KEYS[name].default) for name in ("output", "total_time_limit_s"))
+    return Manifest(root, output, tuple(rules) or (_rule(top, prefix, top),), file, text, float(limit))
 
 
 def _check(table: Mapping[str, Any], where: Where, wrong: Any) -> None:

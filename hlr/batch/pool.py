@@ -6,6 +6,7 @@ Any object that follows the protocol `Pool` will do: what runs elsewhere gets jo
 from __future__ import annotations
 
 import contextlib
+import math
 import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -32,8 +33,12 @@ class Event:
 class Pool(Protocol):
     """Carries out jobs, in any order and each once."""
 
-    def run(self, jobs: Sequence[Job]) -> Iterator[Event]:
-        """Carry out jobs, the first ones first. Each ends with one event that has an outcome, whatever goes wrong."""
+    def run(self, jobs: Sequence[Job], deadline: float = math.inf) -> Iterator[Event]:
+        """Carry out jobs, the first ones first. Each ends with one event that has an outcome, whatever goes wrong.
+
+        deadline: of `time.monotonic`, seconds. Then all that still runs is ended, and jobs that have not ended have no
+        such event.
+        """
 
     def close(self) -> None:
         """End all that still runs."""
@@ -54,7 +59,7 @@ class LocalPool:
         self._workers: list[Worker] = []
         self._said: SimpleQueue[Begun | Ended] = SimpleQueue()
 
-    def run(self, jobs: Sequence[Job]) -> Iterator[Event]:
+    def run(self, jobs: Sequence[Job], deadline: float = math.inf) -> Iterator[Event]:
         """As of `Pool`."""
         while len(self._workers) < min(self._most, len(jobs)):
             self._workers.append(Worker(self._said, self._environment))
@@ -66,6 +71,11 @@ class LocalPool:
             _give(worker, waiting)
         looked = time.monotonic()
         while left:
+            if (time_left := deadline - time.monotonic()) <= 0.0:
+                ended = list(self._ended())
+                self.close()
+                yield from ended
+                return
             # Not only where nothing is said: quick jobs beside an endless one always have something to say.
             if time.monotonic() - looked >= _GLANCE:
                 looked = time.monotonic()
@@ -75,7 +85,7 @@ class LocalPool:
                 for worker in self._workers:
                     worker.keep_within_limits()
             try:
-                said = self._said.get(timeout=_GLANCE)
+                said = self._said.get(timeout=min(_GLANCE, time_left))
             except Empty:
                 continue
             if isinstance(said, Begun):
@@ -84,6 +94,14 @@ class LocalPool:
                 left -= 1
                 _give(said.worker, waiting)
                 yield Event(said.number, outcome=said.outcome)
+
+    def _ended(self) -> Iterator[Event]:
+        """Jobs that have ended already, and were not told of yet."""
+        with contextlib.suppress(Empty):
+            while True:
+                said = self._said.get_nowait()
+                if isinstance(said, Ended):
+                    yield Event(said.number, outcome=said.outcome)
 
     def close(self) -> None:
         """As of `Pool`."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import shlex
@@ -18,6 +19,7 @@ from hlr.batch.manifest import Manifest
 from hlr.batch.parameters import check_parameters
 from hlr.batch.plan import Plan
 from hlr.batch.request import check, wrong_one
+from hlr.common.numbers import typed
 from hlr.drawing import files
 from hlr.errors import HlrError, WriteError
 from hlr.tables.readers import of_ending
@@ -38,6 +40,9 @@ class Listener(Protocol):
     def ended(self, number: int, outcome: Outcome) -> None:
         """A job was carried out, and its files are written."""
 
+    def out_of_time(self, left: int) -> None:
+        """The time of the whole batch is up, and so many jobs are not drawn."""
+
 
 @dataclass(frozen=True, slots=True)
 class Done:
@@ -51,9 +56,13 @@ class Done:
 def run(plan: Plan, kept: Kept, pool: Callable[[], Pool], listener: Listener) -> Done:
     """Carry out all jobs of a plan. pool: called when there is work for it; whoever made it closes it.
 
+    Where the time of the whole batch is up, what runs is ended; jobs that are not drawn have failed.
+
     Raises OptionError, ViewError where an option of a job cannot be drawn, before anything is; WriteError where the
     folder of outputs cannot be made.
     """
+    limit = plan.manifest.total_time_limit_s
+    deadline = time.monotonic() + limit if limit else math.inf
     outcomes: dict[int, Outcome] = {}
     for number, job in enumerate(plan.jobs):
         outcome = kept.find(job)
@@ -64,7 +73,7 @@ def run(plan: Plan, kept: Kept, pool: Callable[[], Pool], listener: Listener) ->
     check_parameters(plan, {plan.jobs[number].rule for number in todo if plan.jobs[number].parameters})
     listener.planned(plan, todo)
     if todo:
-        for event in pool().run([plan.jobs[number] for number in todo]):
+        for event in pool().run([plan.jobs[number] for number in todo], deadline):
             number = todo[event.number]
             if event.outcome is None:
                 listener.begun(number, event.stage)
@@ -75,7 +84,20 @@ def run(plan: Plan, kept: Kept, pool: Callable[[], Pool], listener: Listener) ->
             # The contents are on disk now: in memory they would add up.
             outcomes[number] = without_contents(outcome)
             listener.ended(number, outcomes[number])
+    late = [number for number in todo if number not in outcomes]
+    if late:
+        listener.out_of_time(len(late))
+        outcomes |= {number: _late(plan.jobs[number], limit) for number in late}
     return Done(plan, tuple(outcomes[number] for number in range(len(plan.jobs))), tuple(sorted(todo)))
+
+
+def _late(job: Job, limit: float) -> Outcome:
+    """The outcome of a job that was not drawn in the time of the batch. limit: that time, seconds."""
+    return failed(
+        "TotalTimeLimit",
+        f"{job.source} is not drawn: the batch has taken its {typed(limit)} s; run it again to go on, or raise "
+        "total_time_limit_s (--total-time-limit).",
+    )
 
 
 def written(plan: Plan, job: Job, outcome: Outcome) -> Outcome:

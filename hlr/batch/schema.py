@@ -121,6 +121,13 @@ KEYS = {
     ),
     "depends": Key([], _TEXTS, _is_none_or_texts, "files that the sources depend on besides: names or patterns"),
     "time_limit_s": Key(600.0, "a positive number", _is_positive, "seconds after which a source is given up"),
+    "total_time_limit_s": Key(
+        0.0,
+        "a positive number, or 0 for no limit",
+        lambda value: _is_number(value) and value >= 0.0,
+        "seconds after which the whole run ends, and the next one goes on; 0: it takes as long as it takes",
+        anywhere=False,
+    ),
     "memory_limit_mb": Key(4000.0, "a positive number", _is_positive, "megabytes above which a source is given up"),
 }
 """All keys, in the order in which people are told of them."""

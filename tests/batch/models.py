@@ -1,5 +1,8 @@
 """Small models, and a pool that draws nothing."""
 
+import math
+import time
+
 from hlr.batch.job import Outcome, failed
 from hlr.batch.pool import Event
 
@@ -28,9 +31,11 @@ class FakePool:
     def __call__(self):
         return self
 
-    def run(self, jobs):
+    def run(self, jobs, deadline=math.inf):
         self.asked += [job.title for job in jobs]
         for number in self.order(list(range(len(jobs)))):
+            if time.monotonic() >= deadline:
+                return
             job = jobs[number]
             yield Event(number, stage="source")
             bad = "bad" in job.source
@@ -52,3 +57,6 @@ class Silent:
 
     def ended(self, number, outcome):
         self.told.append(number)
+
+    def out_of_time(self, left):
+        self.left = left

@@ -31,8 +31,8 @@ class Draws(FakePool):
         super().__init__()
         self.lines = lines
 
-    def run(self, jobs):
-        for event in super().run(jobs):
+    def run(self, jobs, *limits):
+        for event in super().run(jobs, *limits):
             if event.outcome is not None and event.outcome.failure is None:
                 job = jobs[event.number]
                 made = drawing(self.lines[job.source.partition(".")[0]]).to_svg().encode()

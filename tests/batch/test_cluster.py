@@ -103,6 +103,24 @@ def test_the_same_outcomes_though_a_worker_is_killed_and_one_sentence_when_the_s
     pool.close()
 
 
+@pytest.mark.slow
+def test_at_the_deadline_jobs_that_are_out_are_ended(machines, tmp_path):
+    models, (address, _) = tmp_path / "models", machines
+    models.mkdir()
+    names = [tetrahedron(models / f"{number}.off", number + 1).name for number in range(2)]
+    (models / "endless.py").write_text("while True: pass\n")
+    jobs = [job(models, name) for name in (*names, *["endless.py"] * 9)]
+    pool = cluster.DaskPool(address)
+    begun = time.monotonic()
+    outcomes = {event.number: event.outcome for event in pool.run(jobs, begun + 8.0)}
+    assert time.monotonic() - begun < 12.0
+    assert outcomes.keys() == {0, 1} and all(outcome.failure is None for outcome in outcomes.values())
+    # The workers are free again.
+    (event,) = pool.run(jobs[:1], time.monotonic() + 60.0)
+    assert event.outcome.failure is None
+    pool.close()
+
+
 def test_a_scheduler_that_does_not_answer_is_told_in_one_sentence(monkeypatch):
     monkeypatch.setattr(cluster, "PATIENCE_S", 0.2)
     with pytest.raises(ClusterError, match=r"no scheduler answers at tcp://127.0.0.1:1 within 0.2 s"):

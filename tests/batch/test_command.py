@@ -47,6 +47,28 @@ def test_a_time_limit_costs_the_source_that_takes_longer(hlr_batch):
 
 
 @pytest.mark.slow
+def test_a_total_time_limit_ends_the_run_and_the_next_one_goes_on(hlr_batch):
+    tetrahedron(hlr_batch.folder / "a.off", 3)
+    endless = hlr_batch.folder / "endless.py"
+    endless.write_text("import cadquery\nresult = 1\nwhile True: pass\n")
+    (hlr_batch.folder / "hlr.toml").write_text(
+        'views = "iso"\nfiles = ["a.off", "endless.py"]\ntotal_time_limit_s = 500\n'
+    )
+    time.sleep(0.01)
+    done = hlr_batch("--total-time-limit", "6s", "-j", "2")
+    assert done.returncode == 1 and "1 drawn, 0 unchanged, 1 failed" in done.stderr
+    assert "the time of the batch is up: 1 of 2 sources is not drawn; the next run goes on with it\n" in done.stderr
+    report = json.loads((hlr_batch.folder / "drawings/manifest.json").read_text())
+    assert [source["state"] for source in report["sources"]] == ["drawn", "failed"]
+    assert report["sources"][1]["error"]["kind"] == "TotalTimeLimit"
+    endless.write_text("import cadquery\nshow_object(cadquery.Workplane().box(1, 2, 3))\n")
+    again = hlr_batch()
+    assert again.returncode == 0 and "1 drawn, 1 unchanged, 0 failed" in again.stderr
+    listed = hlr_batch("--list", "--total-time-limit", "4s")
+    assert listed.stderr.startswith("hlr: note: --total-time-limit has no effect: --list")
+
+
+@pytest.mark.slow
 def test_a_folder_is_drawn_once(hlr_batch, tmp_path):
     for number in range(3):
         tetrahedron(hlr_batch.folder / f"{number}.off", number + 1)

@@ -43,6 +43,11 @@ def test_it_may_stand_in_pyproject(tmp_path):
         ("output = ''", "line 1, output: the name of a folder is needed, not ''"),
         ("formats = ['svg',\n 'dwg']", "line 1, formats: there is no format 'dwg': use svg, "),
         ("time_limit_s = 0", "line 1, time_limit_s: a positive number is needed, not 0"),
+        (
+            "total_time_limit_s = -1",
+            "line 1, total_time_limit_s: a positive number, or 0 for no limit is needed, not -1",
+        ),
+        ("[[source]]\nfiles='b'\ntotal_time_limit_s=9", "line 3, source.total_time_limit_s: it belongs to the top"),
         ("[[source]]\nviews = 'iso'", "line 1, source: this [[source]] names no files"),
         ("[[source]]\nfiles='a'\n[[source]]\nfiles='b'\noutput='c'", "line 5, source.output: it belongs to the top"),
         ("[source]\nfiles = 'a'", "line 1, source: write [[source]] with double brackets"),

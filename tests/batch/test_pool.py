@@ -143,6 +143,44 @@ def test_a_job_that_was_given_up_says_nothing_to_the_next(tmp_path):
     assert outcome.failure is None
 
 
+@pytest.mark.slow
+def test_at_the_deadline_all_that_runs_is_ended_and_nothing_begins(tmp_path):
+    (tmp_path / "endless.py").write_text(
+        f"import os\nopen({str(tmp_path / 'pid')!r}, 'w').write(str(os.getpid()))\n" + SCRIPTS["endless.py"]
+    )
+    for name in ("first.off", "last.off"):
+        tetrahedron(tmp_path / name, 1)
+    jobs = [job(tmp_path, name) for name in ("first.off", "endless.py", "last.off")]
+    pool = LocalPool(1)
+    events = list(pool.run(jobs, time.monotonic() + 8.0))
+    assert [event.number for event in events if event.outcome is not None] == [0]
+    assert {event.number for event in events} == {0, 1}
+    end = time.monotonic() + 5.0
+    while still_runs(tmp_path / "pid"):  # a killed process takes a moment to end
+        assert time.monotonic() < end
+    assert not pool._workers
+    assert list(pool.run(jobs, time.monotonic() - 1.0)) == []
+
+
+def test_what_has_ended_before_the_deadline_is_told(monkeypatch):
+    class Quick:
+        """A worker that is done at once; nobody has looked yet."""
+
+        def __init__(self, said, environment):
+            self.said = said
+
+        def give(self, number, job):
+            self.said.put(Ended(number, Outcome(), self))
+
+        def end(self): ...
+
+        def wait(self): ...
+
+    monkeypatch.setattr("hlr.batch.pool.Worker", Quick)
+    events = list(LocalPool(2).run([job("/", f"{n}.off") for n in range(3)], time.monotonic()))
+    assert [event.number for event in events] == [0, 1]
+
+
 STARTS = """
 import os, subprocess, sys, time
 started = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"], start_new_session=True)

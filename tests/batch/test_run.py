@@ -3,6 +3,7 @@
 import json
 import os
 import random
+import time
 
 import pytest
 from batch.models import FakePool, Silent, tetrahedron
@@ -64,6 +65,28 @@ def test_what_has_changed_is_drawn_again(go, tmp_path):
     assert go(formats=["pdf"])[1] == ["a.off", "b.off", "bad.off", "sub/c.off"]
 
 
+def test_when_the_time_of_the_batch_is_up_the_next_run_goes_on(go, tmp_path):
+    old(tmp_path)
+
+    def slow(numbers):
+        yield numbers[0]
+        time.sleep(0.3)
+        yield from numbers[1:]
+
+    report, asked = go(FakePool(order=slow), total_time_limit_s=0.2)
+    drawn, *left = report["sources"]
+    assert (drawn["source"], drawn["state"]) == ("a.off", "drawn") and (tmp_path / "out/a-iso.svg").is_file()
+    assert len(left) == report["counts"]["failed"] == 3
+    for source in left:
+        assert source["error"] == {
+            "kind": "TotalTimeLimit",
+            "message": f"{source['source']} is not drawn: the batch has taken its 0.2 s; run it again to go on, or "
+            "raise total_time_limit_s (--total-time-limit).",
+        }
+    report, asked = go(total_time_limit_s=60.0)
+    assert asked == ["b.off", "bad.off", "sub/c.off"] and report["counts"]["failed"] == 1
+
+
 def test_what_a_source_pulls_in_counts(go, tmp_path):
     (tmp_path / "lib.py").write_text("1")
     (tmp_path / "table.csv").write_text("1")
@@ -96,9 +119,9 @@ def test_what_changes_while_it_is_drawn_is_drawn_again(go, tmp_path):
     old(tmp_path)
 
     class Changing(FakePool):
-        def run(self, jobs):
+        def run(self, jobs, *limits):
             tetrahedron(tmp_path / "a.off", size=50)
-            yield from super().run(jobs)
+            yield from super().run(jobs, *limits)
 
     first = (tmp_path / "a.off").read_text()
     go(Changing(), files=["a.off"])
