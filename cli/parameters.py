@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
 import click
 
+from hlr.common.numbers import typed
 from hlr.tables.sheets import papers
 
 if TYPE_CHECKING:
@@ -162,6 +164,54 @@ class FieldText(click.ParamType[tuple[str, str]]):
         return key.strip(), text
 
 
+@dataclass(frozen=True)
+class Number(click.ParamType[float]):
+    """A number. least, most: what is allowed; with below and above that itself is not."""
+
+    least: float | None = None
+    most: float | None = None
+    above: bool = False
+    below: bool = False
+
+    name = "NUMBER"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """A finite number in the range."""
+        number = number_of(str(value))
+        if number is None:
+            self.fail(f"{value!r} is not a number", param, ctx)
+        low, high = self.least, self.most
+        if (low is not None and (number <= low if self.above else number < low)) or (
+            high is not None and (number >= high if self.below else number > high)
+        ):
+            self.fail(f"{_exactly(number)} is out of range: give a number {self._range()}", param, ctx)
+        return number
+
+    def _range(self) -> str:
+        """What is allowed, for people."""
+        low, high = ("" if each is None else _exactly(each) for each in (self.least, self.most))
+        if low and high and not (self.above or self.below):
+            return f"from {low} to {high}"
+        least = low and f"{'above' if self.above else 'of at least'} {low}"
+        most = high and f"{'below' if self.below else 'of at most'} {high}"
+        return " and ".join(filter(None, (least, most)))
+
+
+class Whole(click.ParamType[int]):
+    """A whole number."""
+
+    name = "N"
+
+    def __init__(self, least: int, most: int | None = None) -> None:
+        self._range = Number(least, most)
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """A whole number in the range."""
+        if not re.fullmatch(r"\s*[+-]?[0-9]{1,15}\s*", str(value)):
+            self.fail(f"{value!r} is not a whole number", param, ctx)
+        return int(self._range.convert(value, param, ctx))
+
+
 class Duration(click.ParamType[float]):
     """A time: 2s, 500ms, 1min; a number alone is seconds."""
 
@@ -205,6 +255,11 @@ def vector_of(text: str) -> Vector3 | None:
         case [float(x), float(y), float(z)]:
             return (x, y, z)
     return None
+
+
+def _exactly(number: float) -> str:
+    """A number as a person would type it, with all of its digits."""
+    return typed(number, digits=15, places=15)
 
 
 def number_of(text: str) -> float | None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .parameters import Pixels
+from .parameters import Number, Pixels
 
 if TYPE_CHECKING:
     from hlr.request.style import Style
@@ -19,7 +19,7 @@ STYLE = (
     ),
     click.option(
         "--line-width",
-        type=click.FloatRange(0.01, 100.0),
+        type=Number(0.01, 100.0),
         metavar="MM",
         help="Wide lines; narrow ones are half as wide. Default: 0.5, and 0.7 on sheets larger than A2.",
     ),
@@ -34,7 +34,7 @@ STYLE = (
     ),
     click.option(
         "--dpi",
-        type=click.FloatRange(1.0, 10_000.0),
+        type=Number(1.0, 10_000.0),
         metavar="N",
         help="PNG: pixels per inch of paper. Default: 200.",
     ),

@@ -11,7 +11,7 @@ from hlr.errors import OptionError
 from hlr.request.concerns import OF_SOURCES
 from hlr.request.directions import EYE, NAMED
 
-from .parameters import Duration, Scale, ScriptParameter, Size, Vector, Vector3, ViewName, Window
+from .parameters import Duration, Number, Scale, ScriptParameter, Size, Vector, Vector3, ViewName, Whole, Window
 
 if TYPE_CHECKING:
     from hlr.request.options import Perspective, View
@@ -128,7 +128,7 @@ CAMERA = (
     click.option("--target", type=Vector(), metavar="X,Y,Z", help="Perspective: what it looks at."),
     click.option(
         "--fov",
-        type=click.FloatRange(0.0, 180.0, min_open=True, max_open=True),
+        type=Number(0.0, 180.0, above=True, below=True),
         metavar="DEG",
         help="Perspective: vertical field of view.",
     ),
@@ -137,13 +137,13 @@ CAMERA = (
 CARE = (
     click.option(
         "--accuracy",
-        type=click.FloatRange(min=0.0, min_open=True),
+        type=Number(0.0, above=True),
         metavar="MM",
         help="Largest error of a line on paper. Default: 0.05, less for small drawings.",
     ),
     click.option(
         "--crease",
-        type=click.FloatRange(0.0, 180.0),
+        type=Number(0.0, 180.0),
         metavar="DEG",
         default=30.0,
         help="Meshes: angle between two triangles from which an edge is drawn. Default: 30.",
@@ -158,7 +158,7 @@ TIME_LIMIT = click.option(
 )
 
 RUN = (
-    click.option("--threads", type=click.IntRange(min=0), metavar="N", default=0, help="Default: all cores."),
+    click.option("--threads", type=Whole(0), metavar="N", default=0, help="Default: all cores."),
     click.option("--strict", is_flag=True, help="Warnings are errors: nothing is written."),
 )
 

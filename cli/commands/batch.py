@@ -18,7 +18,7 @@ from hlr.tables.writers import WRITERS
 from .. import signals
 from ..batch_progress import Lines, progress
 from ..exits import remark
-from ..parameters import Duration, Vector3, ViewName
+from ..parameters import Duration, Vector3, ViewName, Whole
 from ..verb import Verb
 from ..view_options import NO_CACHE
 
@@ -57,7 +57,7 @@ CHANGED = 3
 @click.option(
     "-j",
     "--jobs",
-    type=click.IntRange(1, 1024),
+    type=Whole(1, 1024),
     metavar="N",
     help="Sources drawn at the same time. Default: one on each core.",
 )

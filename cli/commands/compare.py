@@ -13,7 +13,7 @@ from hlr.tables.readers import is_model, of_ending
 from ..guard import possible, start
 from ..meter import meter
 from ..outputs import Target, check, place
-from ..parameters import Scale, ViewName
+from ..parameters import Number, Scale, ViewName
 from ..signals import tidily
 from ..streams import result_only
 from ..verb import Verb
@@ -39,7 +39,7 @@ _MOST_ROWS = 20
 )  # fmt: skip
 @click.option(
     "--tolerance",
-    type=float,
+    type=Number(),
     metavar="MM",
     default=0.1,
     help="How far apart on paper two lines may lie that count as the same. Default: 0.1.",

@@ -11,6 +11,7 @@ from hlr.common.numbers import typed
 
 from ..guard import start
 from ..meter import meter
+from ..parameters import Number
 from ..streams import result_only
 from ..telling import tell_notes
 from ..verb import Verb
@@ -27,7 +28,7 @@ _LONGEST_NAME = 40
 @click.argument("source")
 @click.option(
     "--crease",
-    type=click.FloatRange(0.0, 180.0),
+    type=Number(0.0, 180.0),
     metavar="DEG",
     default=30.0,
     help="Meshes: angle between two triangles from which there is an edge. Default: 30.",

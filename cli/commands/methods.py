@@ -9,7 +9,7 @@ import click
 from ..guard import start
 from ..meter import meter
 from ..outputs import in_folder, place
-from ..parameters import Pixels, ViewName
+from ..parameters import Number, Pixels, ViewName, Whole
 from ..streams import result_only
 from ..telling import tell_written
 from ..verb import Verb
@@ -27,14 +27,14 @@ if TYPE_CHECKING:
 @click.option(
     "--polygons",
     "counts",
-    type=click.IntRange(min=1),
+    type=Whole(1),
     metavar="N",
     multiple=True,
     help="Polygons of a scene; may be repeated. Default without SOURCE: 100, 250, 550, 2500, 8000, 60000 and 1000000.",
 )
 @click.option(
     "--crossing",
-    type=click.IntRange(min=1),
+    type=Whole(1),
     metavar="N",
     multiple=True,
     help="Polygons of a scene in which they pass through one another; may be repeated. Default without SOURCE: 100, "
@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 @click.option("--view", type=ViewName(), metavar="NAME|X,Y,Z", default="iso", help="View of SOURCE. Default: iso.")
 @click.option(
     "--limit",
-    type=click.FloatRange(min=0.0, min_open=True),
+    type=Number(0.0, above=True),
     metavar="S",
     default=10.0,
     help="Processor time for each method and scene, in seconds. Default: 10.",

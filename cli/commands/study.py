@@ -13,7 +13,7 @@ from hlr.tables.sheets import papers
 from ..guard import end_when_orphaned
 from ..meter import meter
 from ..outputs import Target, in_folder, place
-from ..parameters import Scale, Size, ViewName
+from ..parameters import Number, Scale, Size, ViewName, Whole
 from ..signals import Stopped, tidily
 from ..telling import tell_written
 from ..verb import Verb
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 FILES = ("study.csv", "study.md", "error.png", "stages.png", "arithmetic.csv")
 
-_MILLIMETRES = click.FloatRange(min=0.0, min_open=True)
+_MILLIMETRES = Number(0.0, above=True)
 
 
 @click.command(cls=Verb)
@@ -45,7 +45,7 @@ _MILLIMETRES = click.FloatRange(min=0.0, min_open=True)
 )
 @click.option(
     "--pixels",
-    type=click.IntRange(16, 16384),
+    type=Whole(16, 16384),
     metavar="N",
     multiple=True,
     help="Along the longer side of a depth buffer; may be repeated. Default: 512, 1024, 2048, 4096 and 8192.",
@@ -61,7 +61,7 @@ _MILLIMETRES = click.FloatRange(min=0.0, min_open=True)
     default=30.0,
     help="Processor time for each point in seconds, reading included. Default: 30.",
 )
-@click.option("--runs", type=click.IntRange(min=1), metavar="N", default=3, help="Runs of each point. Default: 3.")
+@click.option("--runs", type=Whole(1), metavar="N", default=3, help="Runs of each point. Default: 3.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
 def study(  # noqa: PLR0913 - one for each option of the command
     *,
