@@ -7,7 +7,10 @@ import pytest
 
 import hlr
 from hlr.compare import compare
+from hlr.compare.difference import Difference
 from hlr.compare.matching.pairing import BESIDE
+from hlr.compare.overlay.cells import cells_of
+from hlr.compare.overlay.table import rows
 from hlr.drawing.page import Page
 from hlr.drawing.sheet import Sheet, SheetView
 from hlr.errors import OptionError
@@ -47,13 +50,26 @@ def test_views_are_moved_by_themselves_and_the_difference_names_its_view():
     found = compare(page(PLACES), page(MOVED, without=["Top"]), register="translation")
     (one,) = found.differences
     assert (one.view, one.kind, one.visible, one.part) == ("Top", "gone", False, "Top/bolt")
-    rows = {view.name: view for view in found.views}
-    assert {name: row.shift for name, row in rows.items()} == {
+    views = {view.name: view for view in found.views}
+    assert {name: row.shift for name, row in views.items()} == {
         name: pytest.approx(np.subtract(PLACES[name], MOVED[name]), abs=1e-3) for name in PLACES
     }
-    assert [row.mm["gone"] for row in rows.values()] == [0.0, pytest.approx(12.0), 0.0]
-    assert sum(row.same_mm for row in rows.values()) == pytest.approx(found.same_mm, abs=1e-3)
+    assert [row.mm["gone"] for row in views.values()] == [0.0, pytest.approx(12.0), 0.0]
+    assert sum(row.same_mm for row in views.values()) == pytest.approx(found.same_mm, abs=1e-3)
     assert found.to_dict()["views"][1]["name"] == "Top"
+
+
+def test_the_tables_name_a_view_once():
+    found = compare(page(PLACES), page(PLACES, without=["Top"]))
+    ours = Difference("gone", (1.0, 2.0), 9.0, "sharp", True, "Top/bolt", 7, "before", view="Top")
+    others = [
+        replace(ours, part=None, edge=None, view="Iso"),
+        replace(ours, part="Left/bolt", edge=None, view="Right"),
+        replace(ours, part="Topper/bolt"),
+    ]
+    cells = [cells_of(each, {})[4] for each in (*found.differences, ours, *others)]
+    assert cells == ["Top/bolt", "Top/bolt, edge 7", "Iso", "Right Left/bolt", "Top Topper/bolt, edge 7"]
+    assert rows(found, 9)[2].endswith("  Top/bolt")
 
 
 def test_as_they_lie_views_that_lie_elsewhere_differ():

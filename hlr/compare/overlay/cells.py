@@ -27,10 +27,11 @@ def cells_of(each: Difference, words: dict[str, str]) -> tuple[str, ...]:
     became = f", now {each.became}" if each.became else ""
     name = "".join(c if c.isprintable() else "?" for c in each.part or "")
     edge = "" if each.edge is None else f", edge {each.edge}"
-    view = f"{each.view} " if each.view else ""
+    # Parts of a page are called by their view already.
+    view = f"{each.view} " if each.view and not (each.part or "").startswith(f"{each.view}/") else ""
     verdict = f"{each.verdict}: {each.reason}" if each.verdict else ""
     x, y = (f"{value:.2f}" for value in each.place)
-    return what, told(each.length_mm), f"{x}, {y}", line + became, f"{view}{name}{edge}", verdict
+    return what, told(each.length_mm), f"{x}, {y}", line + became, f"{view}{name}".rstrip() + edge, verdict
 
 
 def view_cells(view: ComparedView, words: dict[str, str]) -> tuple[str, ...]:
