@@ -16,13 +16,13 @@ from hlr.compare.matching.judge import judged
 from hlr.compare.matching.register import translation
 from hlr.compare.matching.similarity import laid_share, similarity
 from hlr.compare.matching.views import by_view
-from hlr.compare.reading.choice import Choice, Chosen
+from hlr.compare.reading.choice import Choice
 from hlr.compare.reading.document import with_pages
 from hlr.compare.reading.model import sides_of, without_undrawn
 from hlr.compare.reading.sides import Side
 from hlr.compare.verdict.verdicts import with_verdicts
 from hlr.errors import OptionError
-from hlr.request.options import View
+from hlr.request.options import Chosen, View
 
 if TYPE_CHECKING:
     from hlr.common.types import Progress

@@ -22,11 +22,11 @@ from typing import TYPE_CHECKING, Any, Unpack
 from hlr.common.keywords import record_of, shown
 from hlr.compare.compare import compare
 from hlr.compare.comparison import Comparison
-from hlr.compare.reading.choice import Choice, Chosen
+from hlr.compare.reading.choice import Choice
 from hlr.errors import OptionError, SourceError
 from hlr.pipeline.draw import draw_views
 from hlr.request.directions import axes, directed
-from hlr.request.options import View
+from hlr.request.options import Chosen, View
 from hlr.source import open_source
 from hlr.source.model import missing_of_source
 from hlr.source.selection import open_selected

@@ -135,7 +135,18 @@ class Options:
     style: StyleLike | None = None
 
 
-class Wishes(TypedDict, total=False):
+class Chosen(TypedDict, total=False):
+    """What is chosen of a model, as keywords: fields of `Options`, of pictures and of comparisons."""
+
+    only: tuple[str, ...]
+    hide: tuple[str, ...]
+    var: str | None
+    parameters: Mapping[str, Parameter] | None
+    annotations: bool
+    hidden_objects: bool
+
+
+class Wishes(Chosen, total=False):
     """The fields of `Options` as the keywords of `hlr.draw`: none has to be given."""
 
     hidden: bool | None
@@ -158,12 +169,6 @@ class Wishes(TypedDict, total=False):
     details: bool
     fill: bool
     threads: int
-    only: tuple[str, ...]
-    hide: tuple[str, ...]
-    var: str | None
-    parameters: Mapping[str, Parameter] | None
-    annotations: bool
-    hidden_objects: bool
     style: StyleLike | None
     strict: bool
     report: bool

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from numbers import Integral
-from typing import Any, TypedDict
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from hlr.common.numbers import typed
 from hlr.errors import OptionError
 from hlr.request.check import checked
 from hlr.request.effect import ASKED, SCENE, Effect, Facts, Planner
-from hlr.request.options import Options, Parameter, Perspective, Vector
+from hlr.request.options import Chosen, Options, Parameter, Perspective, Vector
 
 MOST_PIXELS_A_SIDE = 16384
 MOST_PIXELS = 100_000_000
@@ -93,7 +93,7 @@ class PreviewOptions:
     look: str = "shaded"
 
 
-class PreviewWishes(TypedDict, total=False):
+class PreviewWishes(Chosen, total=False):
     """The fields of `PreviewOptions` as the keywords of `hlr.preview`: none has to be given."""
 
     size: tuple[int, int]
@@ -111,12 +111,6 @@ class PreviewWishes(TypedDict, total=False):
     up: Vector | None
     perspective: Perspective | None
     threads: int
-    only: tuple[str, ...]
-    hide: tuple[str, ...]
-    var: str | None
-    parameters: Mapping[str, Parameter] | None
-    annotations: bool
-    hidden_objects: bool
     strict: bool
     look: str
 

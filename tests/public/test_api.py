@@ -13,8 +13,9 @@ from typing import get_args, get_type_hints
 import pytest
 
 import hlr
+from hlr.compare.reading.choice import Choice
 from hlr.request.directions import NAMED
-from hlr.request.options import Options, ViewName, Wishes
+from hlr.request.options import Chosen, Options, ViewName, Wishes
 from hlr.request.picture_effects import PreviewOptions, PreviewWishes
 from support.models import box
 
@@ -65,7 +66,7 @@ def test_listing_the_names_loads_nothing():
     assert done.stdout == "[]\n"
 
 
-@pytest.mark.parametrize(("record", "keywords"), [(Options, Wishes), (PreviewOptions, PreviewWishes)])
+@pytest.mark.parametrize(("record", "keywords"), [(Options, Wishes), (PreviewOptions, PreviewWishes), (Choice, Chosen)])
 def test_keywords_are_the_fields_of_the_record(record, keywords):
     assert get_type_hints(keywords) == get_type_hints(record) and not keywords.__required_keys__
 

@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import Any
 
 from hlr.errors import OptionError
 from hlr.request.check import checked
@@ -51,17 +51,6 @@ class Choice:
         if _is_script(beside) and not _is_script(model):
             return replace(self, var=None, parameters=None)
         return self
-
-
-class Chosen(TypedDict, total=False):
-    """The fields of `Choice` as keywords: none has to be given."""
-
-    only: tuple[str, ...]
-    hide: tuple[str, ...]
-    var: str | None
-    parameters: Mapping[str, Parameter] | None
-    annotations: bool
-    hidden_objects: bool
 
 
 def _is_script(given: Any) -> bool:
