@@ -134,7 +134,7 @@ class Display(Lines):
 
 def told(plan: Plan, number: int, outcome: Outcome) -> str:
     """One line about a job that has ended."""
-    title = plan.jobs[number].title
+    title = "".join(c if c.isprintable() else "?" for c in plan.jobs[number].title)
     if outcome.failure is not None:
         return f"{title}: failed: {' '.join(outcome.failure.message.split())}"
     warnings = len({note["text"] for drawing in outcome.drawings for note in drawing["notes"] if note["warning"]})

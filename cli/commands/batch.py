@@ -201,6 +201,8 @@ class _Asked:
     def _manifest(self) -> Manifest:
         from hlr.batch.manifest import find, read, without_file
 
+        if "" in self._sources:
+            raise OptionError("the name of a source is empty: name a folder or models, or leave it out")
         named = [Path(source) for source in self._sources] or [Path()]
         manifest = next((path for path in named if path.suffix == ".toml"), None)
         if manifest is not None and len(named) > 1:

@@ -101,7 +101,7 @@ def _is_foreign(folder: Path) -> bool:
 def _says(script: Path) -> tuple[bool, bool]:
     """Whether a script imports CadQuery or build123d, and whether it shows something."""
     try:
-        text = script.read_bytes()
+        text = script.read_bytes() if script.is_file() else b""
     except OSError:
         return False, False
     return bool(_CAD_SCRIPT.search(text)), bool(_SHOWS.search(text))

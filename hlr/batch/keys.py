@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable
+from contextlib import suppress
 from hashlib import blake2b, file_digest
 from pathlib import Path
 
@@ -31,11 +32,11 @@ class Digests:
         """The digest of a file's content; None where there is no file that can be read."""
         name = os.path.abspath(path)
         if name not in self._known:
-            try:
-                with open(name, "rb") as file:
-                    self._known[name] = file_digest(file, "sha256").hexdigest()
-            except (OSError, ValueError):
-                self._known[name] = None
+            self._known[name] = None
+            with suppress(OSError, ValueError):
+                if os.path.isfile(name):  # whoever opens a pipe waits for a writer
+                    with open(name, "rb") as file:
+                        self._known[name] = file_digest(file, "sha256").hexdigest()
         return self._known[name]
 
     def forget(self, paths: Iterable[Path]) -> None:

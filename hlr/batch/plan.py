@@ -195,14 +195,20 @@ def _safe(text: str) -> str:
 
 def _check_names(manifest: Manifest, jobs: Sequence[Job]) -> None:
     """Raise OptionError where two drawings have one file, or one that the report needs."""
-    first = {name: ("the report", name) for name in REPORTS}
+    first: dict[str, tuple[str, str, Job | None]] = {name: ("the report", name, None) for name in REPORTS}
     for job in jobs:
         for row, view in zip(job.files, job.drawings, strict=True):
             for file in row:
                 what = f"{job.title}, {view}"
                 # As a file system sees it that takes large and small letters for the same.
-                other, same = first.setdefault(file.casefold(), (what, file))
+                other, same, its = first.setdefault(file.casefold(), (what, file, job))
                 if other is not what:
+                    if its is job and other == what:
+                        text = f"the view {view} is given twice: give it once, or put {{n}} into the name"
+                        raise manifest.error((*job.rule, "views"), text)
+                    if its is not None and other == what:
+                        text = f"{job.source} is named twice: leave it out of one [[source]], or give that a name"
+                        raise manifest.error((*job.rule, "files"), text)
                     where = "" if same == file else ", where large and small letters are the same"
                     raise _clash(manifest, job, f"{other} and {what} would both be written to {file}{where}")
 

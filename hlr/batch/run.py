@@ -58,8 +58,8 @@ def run(plan: Plan, kept: Kept, pool: Callable[[], Pool], listener: Listener) ->
 
     Where the time of the whole batch is up, what runs is ended; jobs that are not drawn have failed.
 
-    Raises OptionError, ViewError where an option of a job cannot be drawn, before anything is; WriteError where the
-    folder of outputs cannot be made.
+    Raises OptionError, ViewError where an option of a job cannot be drawn, before anything is; WriteError where
+    nothing can be written into the folder of outputs.
     """
     limit = plan.manifest.total_time_limit_s
     deadline = time.monotonic() + limit if limit else math.inf
@@ -73,6 +73,7 @@ def run(plan: Plan, kept: Kept, pool: Callable[[], Pool], listener: Listener) ->
     check_parameters(plan, {plan.jobs[number].rule for number in todo if plan.jobs[number].parameters})
     listener.planned(plan, todo)
     if todo:
+        files.check_writable(plan.output / "manifest.json", make_folder=True)
         for event in pool().run([plan.jobs[number] for number in todo], deadline):
             number = todo[event.number]
             if event.outcome is None:

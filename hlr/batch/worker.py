@@ -97,6 +97,12 @@ class Worker:
         code: int | None = None
         try:
             process = self._started()
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            return failed(
+                "Crash", f"{job.source}: no process to draw it can be started with {sys.executable}: {reason}."
+            )
+        try:
             assert process.stdin is not None and process.stdout is not None
             send(process.stdin.fileno(), job)
             self._running = running

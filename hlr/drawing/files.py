@@ -54,6 +54,8 @@ def check_writable(path: Path, make_folder: bool = False) -> os.stat_result | No
     # Renaming would replace even a file that is write-protected.
     if not os.access(path, os.W_OK):
         raise WriteError(f"cannot write {path}: the file is write-protected")
+    if stat.S_ISREG(there.st_mode):
+        _check_folder(Path(os.path.realpath(path)) if path.is_symlink() else path, False)
     check_model(path)
     return there
 

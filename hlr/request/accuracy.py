@@ -303,7 +303,7 @@ def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) ->
         given = math.ceil(finest / digit) * digit  # rounded up: the number that is named has to be accepted
         raise OptionError(
             f"accuracy {typed(accuracy, places=15)} mm is too fine for a drawing of {typed(diagonal, 3, 15)} mm: "
-            f"give at least {typed(given, 1, 15)}"
+            f"give at least {typed(given, 1, 15)}, or a smaller scale"
         )
     model = accuracy / per_model
     deflection = TESSELLATION * model

@@ -42,6 +42,8 @@ def open_source(
         OptionError: var or a parameter is given, and the script has no such variable, or `thing` is no script.
     """
     if isinstance(thing, str | os.PathLike):
+        if os.fspath(thing) == "":
+            raise SourceError("the name of the source is empty: name a model file.")
         of_file = {"annotations": annotations, "hidden_objects": hidden_objects}
         return _open_path(Path(os.fspath(thing)), {"var": var, "parameters": parameters or None}, of_file)
     missing = missing_of_source(thing)

@@ -152,6 +152,16 @@ def test_names_that_cannot_be(tmp_path, name, message):
         planned(tmp_path, name=name, views=["front", "top"])
 
 
+def test_what_is_named_twice_is_told_as_that(tmp_path):
+    tetrahedron(tmp_path / "a.off")
+    with pytest.raises(OptionError, match=r"^the view top is given twice: give it once, or put \{n\} into the name"):
+        planned(tmp_path, views=["top", "iso", "top"])
+    assert len(planned(tmp_path, views=["top", "top"], name="{stem}-{n}")["a.off"]) == 2
+    sources = [{"files": "a.off"}, {"files": "*.off", "scale": 2.0}]
+    with pytest.raises(OptionError, match=r"^a\.off is named twice: leave it out of one \[\[source\]\], or give that"):
+        planned(tmp_path, source=sources)
+
+
 def test_a_drawing_does_not_take_a_file_of_the_report(tmp_path):
     tetrahedron(tmp_path / "a.off")
     with pytest.raises(OptionError, match=r"the report and a\.off, iso would both be written to Manifest\.json"):

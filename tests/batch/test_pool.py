@@ -162,6 +162,15 @@ def test_at_the_deadline_all_that_runs_is_ended_and_nothing_begins(tmp_path):
     assert list(pool.run(jobs, time.monotonic() - 1.0)) == []
 
 
+def test_a_worker_that_cannot_be_started_is_told(monkeypatch, tmp_path):
+    monkeypatch.setattr(sys, "executable", str(tmp_path / "python"))
+    pool = LocalPool(1)
+    outcomes = [event.outcome for event in pool.run([job(tmp_path, f"{n}.off") for n in range(2)])]
+    pool.close()
+    message = f"0.off: no process to draw it can be started with {tmp_path}/python: no such file or directory."
+    assert outcomes[0].failure.message == message and len(outcomes) == 2
+
+
 def test_what_has_ended_before_the_deadline_is_told(monkeypatch):
     class Quick:
         """A worker that is done at once; nobody has looked yet."""

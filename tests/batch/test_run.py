@@ -16,7 +16,7 @@ from hlr.batch.report import write
 from hlr.batch.run import run, tidy
 from hlr.cache.store import DRAWINGS, Store
 from hlr.drawing import files
-from hlr.errors import OptionError
+from hlr.errors import OptionError, WriteError
 
 
 @pytest.fixture
@@ -85,6 +85,26 @@ def test_when_the_time_of_the_batch_is_up_the_next_run_goes_on(go, tmp_path):
         }
     report, asked = go(total_time_limit_s=60.0)
     assert asked == ["b.off", "bad.off", "sub/c.off"] and report["counts"]["failed"] == 1
+
+
+def test_a_folder_that_cannot_be_written_into_is_refused_before_any_work(go, tmp_path, monkeypatch):
+    old(tmp_path)
+    (tmp_path / "out").mkdir()
+    monkeypatch.setattr(files.os, "access", lambda path, mode: path != tmp_path / "out")
+    pool = FakePool()
+    with pytest.raises(WriteError, match=r"manifest\.json: no permission to write into the folder"):
+        go(pool)
+    assert pool.asked == [] and list((tmp_path / "out").iterdir()) == []
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs a named pipe")
+def test_a_pipe_among_the_models_is_not_waited_for(go, tmp_path):
+    os.mkfifo(tmp_path / "pipe.off")
+    os.mkfifo(tmp_path / "pipe.py")
+    report, asked = go()
+    assert "pipe.off" in asked and "pipe.py" not in asked
+    (pipe,) = [source for source in report["sources"] if source["source"] == "pipe.off"]
+    assert pipe["sha256"] is None
 
 
 def test_what_a_source_pulls_in_counts(go, tmp_path):

@@ -3,6 +3,7 @@ import os
 import re
 import stat
 import threading
+from pathlib import Path
 
 import pytest
 
@@ -90,6 +91,17 @@ def test_no_permission_is_said(tmp_path, monkeypatch):
     with pytest.raises(WriteError, match="write-protected"):
         write(sample(), tmp_path / "a.svg")
     assert (tmp_path / "a.svg").read_text() == "old"
+
+
+def test_a_file_is_not_replaced_in_a_folder_that_cannot_be_written_into(tmp_path, monkeypatch):
+    (tmp_path / "real").mkdir()
+    (tmp_path / "real/a.svg").write_text("old")
+    (tmp_path / "a.svg").symlink_to(tmp_path / "real/a.svg")
+    monkeypatch.setattr(files.os, "access", lambda path, mode: Path(path) != tmp_path / "real")
+    for path in (tmp_path / "real/a.svg", tmp_path / "a.svg"):
+        with pytest.raises(WriteError, match=r"no permission to write into the folder .*real\.$"):
+            files.check_writable(path)
+    assert files.check_writable(Path(os.devnull)) is not None
 
 
 def test_a_bug_while_rendering_leaves_nothing(tmp_path, monkeypatch):

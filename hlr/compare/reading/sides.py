@@ -97,6 +97,8 @@ def _side_of_page(page: DrawnPage, tolerance_mm: float) -> Side:
 def _path(given: Any) -> Path:
     if not isinstance(given, str | os.PathLike):
         raise SourceError(f"{given!r} cannot be compared: give a drawing, or the path of its file")
+    if os.fspath(given) == "":
+        raise SourceError("the name of a side is empty: name a drawing or a model")
     path = Path(given)
     check_readable(path)
     if path.suffix.lower() not in _READERS:
