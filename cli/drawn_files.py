@@ -18,10 +18,17 @@ Targets = list[list[Target]]
 """For each view, the files that its drawing is written to."""
 
 
-def targets_of(outputs: Sequence[str], source: str, names: Sequence[str], format: str | None, as_json: bool) -> Targets:
+def targets_of(
+    outputs: Sequence[str],
+    source: str,
+    names: Sequence[str],
+    format: str | None,
+    as_json: bool,
+    template: str | None = None,
+) -> Targets:
     """Where the drawing of each view is written. What cannot be written is refused before any work.
 
-    outputs: file names, patterns, folders, or "-" for standard output.
+    outputs: file names, patterns, folders, or "-" for standard output; template: of the page.
 
     Raises OptionError, WriteError, SourceError.
     """
@@ -35,7 +42,7 @@ def targets_of(outputs: Sequence[str], source: str, names: Sequence[str], format
     columns = [_column(output, source, names, format) for output in (outputs or (None,))]
     targets = [target for column in columns for target in column]
     _check_format(format, outputs, targets)
-    check(targets, source)
+    check(targets, source, template)
     return [list(row) for row in zip(*columns, strict=True)]
 
 

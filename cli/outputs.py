@@ -64,12 +64,12 @@ def plan(pattern: str | None, source: str, views: Sequence[str], ending: str) ->
     return paths
 
 
-def check(targets: Sequence[Target], source: str | None) -> None:
+def check(targets: Sequence[Target], source: str | None, template: str | None = None) -> None:
     """Refuse outputs that cannot be written, before any work is done.
 
     Raises OptionError where two outputs are the same file, however it is spelled, be it only on file systems that take
-    large and small letters for the same; WriteError for a missing folder, a
-    lack of permission, the source itself or another model.
+    large and small letters for the same; WriteError for a missing folder, a lack of permission, the source itself, the
+    template of its page, or another model.
     """
     from hlr.drawing import files, originals
 
@@ -87,7 +87,7 @@ def check(targets: Sequence[Target], source: str | None) -> None:
             also = "" if same == path else f", which is {same}"
             raise OptionError(f"two things would be written to {path}{also}; give each a name of its own")
     if source is not None:
-        originals.check_source([path for path, _ in paths], source)
+        originals.check_source([path for path, _ in paths], source, template)
     for path, make_folder in paths:
         files.check_writable(path, make_folder)
 

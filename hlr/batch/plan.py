@@ -15,6 +15,7 @@ from hlr.batch.arranged_page import filled_in, printed_of
 from hlr.batch.discover import files_named, models_under, named, takes_parameters, without
 from hlr.batch.job import Job
 from hlr.batch.manifest import Manifest, Rule
+from hlr.batch.request import files_of
 from hlr.batch.schema import KEYS, as_list
 from hlr.errors import OptionError
 
@@ -65,7 +66,7 @@ def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
             options = {**rule.options, **({"strict": True} if strict else {})}
             alone = stems[_stem(path)] == 1
             jobs.extend(replace(job, depends=depends) for job in _jobs(manifest, rule, path, options, alone, printed))
-    _check_names(manifest, jobs)
+    _check_names(manifest, jobs, output)
     drawn = {os.path.join(job.root, job.source) for job in jobs}
     return Plan(manifest, output, tuple(jobs), tuple(path for path in dict.fromkeys(silent) if str(path) not in drawn))
 
@@ -193,13 +194,20 @@ def _safe(text: str) -> str:
     return re.sub(r"[^\w.+=,-]", "_", text)
 
 
-def _check_names(manifest: Manifest, jobs: Sequence[Job]) -> None:
-    """Raise OptionError where two drawings have one file, or one that the report needs."""
+def _check_names(manifest: Manifest, jobs: Sequence[Job], output: Path) -> None:
+    """Raise OptionError where two drawings have one file, or one that the report needs, or a template or the like."""
+    used = {
+        os.path.normpath(Path(job.root, name))
+        for job in jobs
+        for name in (*job.depends, *files_of(job.options, job.root).values())
+    }
     first: dict[str, tuple[str, str, Job | None]] = {name: ("the report", name, None) for name in REPORTS}
     for job in jobs:
         for row, view in zip(job.files, job.drawings, strict=True):
             for file in row:
                 what = f"{job.title}, {view}"
+                if os.path.normpath(output / file) in used:
+                    raise _clash(manifest, job, f"{what} would be written to {file}, which a drawing depends on")
                 # As a file system sees it that takes large and small letters for the same.
                 other, same, its = first.setdefault(file.casefold(), (what, file, job))
                 if other is not what:

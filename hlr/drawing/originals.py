@@ -30,9 +30,13 @@ def check_model(path: Path) -> None:
             raise WriteError(f"cannot write {path}: it is a model, and a drawing would destroy it; give another name")
 
 
-def check_source(paths: Iterable[Path], source: str | os.PathLike[str]) -> None:
-    """Raise WriteError where one of `paths` is the source, however it is spelled or linked, or a file that it names."""
+def check_source(paths: Iterable[Path], source: str | os.PathLike[str], template: str | None = None) -> None:
+    """Raise WriteError where one of `paths` is the source, however it is spelled or linked, or a file that it names.
+
+    template: of the page, which must stay as well
+    """
     originals = [(Path(source), "the source"), *((side, "a file of the model") for side in _sides(Path(source)))]
+    originals += [] if template is None else [(Path(template), "the template")]
     for path in paths:
         for original, what in originals:
             if _same(path, original):

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import permutations
 
+from hlr.common.numbers import typed
 from hlr.errors import OptionError
 from hlr.tables.projection_methods import Cell, ProjectionMethod
 from hlr.tables.sheets import MARGIN, Paper, standard_scale
@@ -109,9 +110,15 @@ def arranged(
             if chosen > 0.0 and (best is None or rank > best[0]):
                 best = rank, Arrangement(chosen, room, cells, gap)
     if best is None:
-        page = f"a page of {rooms[0].paper.width:g} x {rooms[0].paper.height:g} mm"
+        room = max(rooms, key=lambda each: each.width * each.height)
+        page = f"a page of {room.paper.width:g} x {room.paper.height:g} mm"
         apart = f"{len(own)} views with {gap:g} mm between them"
-        raise OptionError(f"{page} has no room for {apart}: give a larger page, or fewer views")
+        if room == inside_margins(room.paper):
+            raise OptionError(f"{page} has no room for {apart}: give a larger page, or fewer views")
+        size = " x ".join(typed(side, 4) for side in (room.width, room.height))
+        raise OptionError(
+            f"the room of {size} mm on {page} is too small for {apart}: give a larger one, or fewer views"
+        )
     return best[1]
 
 

@@ -16,7 +16,7 @@ def check_readable(path: Path) -> None:
     """
     try:
         if path.is_dir():
-            raise SourceError(f"{path} is a folder: name a model file in it.")
+            raise SourceError(f"{path} is a folder: name a file in it.")
         if not path.exists():
             raise SourceError(f"{path} does not exist: check the name and the folder.")
         if not path.is_file():

@@ -162,6 +162,19 @@ def test_what_is_named_twice_is_told_as_that(tmp_path):
         planned(tmp_path, source=sources)
 
 
+def test_a_drawing_does_not_take_the_place_of_what_drawings_depend_on(tmp_path):
+    tetrahedron(tmp_path / "a.off")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out/sheet.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm"/>')
+    for more in ({"arrange": "first-angle", "template": "out/sheet.svg"}, {"views": "top", "depends": "out/sheet.svg"}):
+        found = manifest_of({"name": "sheet", **more}, tmp_path)
+        with pytest.raises(
+            OptionError, match=r"^a\.off, .* would be written to sheet\.svg, which a drawing depends on: "
+        ):
+            plan(found, tmp_path / "out")
+        assert len(plan(found, tmp_path / "other").jobs) == 1
+
+
 def test_a_drawing_does_not_take_a_file_of_the_report(tmp_path):
     tetrahedron(tmp_path / "a.off")
     with pytest.raises(OptionError, match=r"the report and a\.off, iso would both be written to Manifest\.json"):

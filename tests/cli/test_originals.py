@@ -82,6 +82,14 @@ def test_materials_and_textures(refused, tmp_path):
     refused("preview", "m.obj", "-o", "x.png", "--ids", "sub/wood.png")
 
 
+def test_the_template_of_a_page(refused, tmp_path):
+    (tmp_path / "sheet.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm"/>')
+    page = ("draw", "a.stl", "--arrange", "first-angle", "--template", "sheet.svg")
+    refused(*page, "-o", "sub/../sheet.svg", words="it is the template, and would be destroyed")
+    (tmp_path / "b.svg").symlink_to(tmp_path / "sheet.svg")
+    refused(*page, "-o", "b.svg", words="it is the template, and would be destroyed")
+
+
 def test_in_python(tmp_path):
     import hlr
 

@@ -137,6 +137,12 @@ def test_a_direction_along_an_axis_has_the_place_of_that_view(direction, cell):
 def test_a_page_without_room_is_refused():
     with pytest.raises(OptionError, match="a page of 30 x 30 mm has no room for 4 views with 10 mm between"):
         page(["front", "top", "right", "iso"], sheet="30x30")
+    row, cells, sizes = PROJECTION_METHODS["third-angle"], [(0, 0), (0, 1), (1, 0)], [(9.0, 9.0)] * 3
+    (paper,) = papers("A4-landscape")
+    rooms = [Room(paper, 0.0, 0.0, 5.0, 1.0), Room(paper, 0.0, 0.0, 12.5, 9.0)]
+    message = "the room of 12.5 x 9 mm on a page of 297 x 210 mm is too small for 3 views with 10 mm between them: give"
+    with pytest.raises(OptionError, match=message):
+        arranged(cells, sizes, row, rooms, None)
 
 
 @pytest.mark.parametrize(
