@@ -11,7 +11,7 @@ from hlr.common.keywords import expect_record
 from hlr.common.numbers import is_finite
 from hlr.common.threads import at_most
 from hlr.drawing.drawing import Drawing
-from hlr.errors import OptionError
+from hlr.errors import OptionError, ViewError
 from hlr.pipeline.arranged import Printed, draw_on_one_page
 from hlr.request.check import checked
 from hlr.request.options import Options, View
@@ -76,16 +76,27 @@ def draw_arranged(
         raise OptionError(f"no method is called {method!r}: give {listed(PROJECTION_METHODS, 'or')}")
     options = checked(expect_record(Options, options, "draw_arranged"))
     check_arranged(options)
-    if views is not None and not (views := list(views)):
-        raise OptionError("a page needs a view: give one, or None for the usual ones")
-    printed = _printed(template, texts or {}, room, options)
+    chosen = cast("Sequence[View]", row.usual) if views is None else _listed(views)
+    printed = _printed(template, {} if texts is None else texts, room, options)
     with at_most(options.threads):
-        chosen = cast("Sequence[View]", row.usual) if views is None else views
         if views is None and isinstance(options.section, Mapping):
             from hlr.request.section import with_sections
 
             chosen = with_sections(chosen, options.section)
         return draw_on_one_page(source, chosen, row, options, printed, progress)
+
+
+def _listed(views: Any) -> list[View]:
+    """The views that are given; a single name is one. Raises ViewError for no list, OptionError for an empty one."""
+    if isinstance(views, str):
+        return [cast("View", views)]
+    try:
+        found: list[View] = list(views)
+    except TypeError:
+        raise ViewError(f"{views!r} is no list of views: give names such as 'iso', or directions") from None
+    if not found:
+        raise OptionError("a page needs a view: give one, or None for the usual ones")
+    return found
 
 
 def _printed(
@@ -94,12 +105,16 @@ def _printed(
     """What is on the page besides its views, checked."""
     if room is not None:
         check_room(room)
+    if not isinstance(texts, Mapping):
+        raise OptionError(f"texts are needed by the keys of fields, such as {{'TITLE': 'Bracket'}}, not {texts!r}")
     if template is None:
         if texts:
             raise OptionError("texts are for the fields of a template: give one, or leave them out")
         return Printed(room=room)
     if options.page is not None:
         raise OptionError("a template has a size of its own: leave out page, or template")
+    if not isinstance(template, str | os.PathLike) or not os.fspath(template):
+        raise OptionError(f"template needs the name of an SVG file, not {template!r}")
     read = read_page_template(Path(template))
     texts = {str(key): str(text) for key, text in texts.items()}
     read.check(texts)

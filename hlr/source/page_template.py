@@ -33,6 +33,9 @@ UNITS = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72.0, "pc": 25.4 / 6.0,
 SCALES = {"scale", "sc", "масштаб"}
 """Keys of fields, in small letters and without FreeCAD's FC-, that hold the scale of the views."""
 
+_NO_XML = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""What is no character of XML."""
+
 Rectangle = tuple[float, float, float, float]
 """x0, y0, x1, y1, millimetres from the lower left corner of a page."""
 
@@ -54,11 +57,16 @@ class PageTemplate:
     fields: tuple[str, ...]
 
     def check(self, texts: Mapping[str, str]) -> None:
-        """Raise OptionError for a text that no field has a place for."""
+        """Raise OptionError for a text that no field has a place for, or that an SVG cannot hold."""
         unknown = [key for key in texts if key not in self.fields]
         if unknown:
             known = f"its fields are {listed(self.fields, 'and')}" if self.fields else "it has no fields"
             raise OptionError(f"{self.path.name} has no field {unknown[0]!r}: {known}")
+        for key, text in texts.items():
+            if wrong := _NO_XML.search(text):
+                raise OptionError(
+                    f"the text for {key} has the character {wrong[0]!r}, which SVG cannot hold: leave it out"
+                )
 
     def filled(self, texts: Mapping[str, str], scale: str) -> str:
         """The template as an SVG element with texts in its fields; the scale goes into a field of that name."""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -62,6 +63,7 @@ def _from(first: int, line: Line) -> Line:
 def _view(entry: dict[str, Any], what: str) -> SheetView:
     view: SheetView = revived(SheetView, entry, what)
     positive(view.scale, f"{what}.scale")
+    _finite((*view.place, view.rotation, *(view.origin or ())), what)
     for name in ("direction", "right"):
         direction(getattr(view, name), f"{what}.{name}")
     if view.letter:
@@ -70,12 +72,20 @@ def _view(entry: dict[str, Any], what: str) -> SheetView:
 
 
 def _mark(entry: dict[str, Any], what: str) -> SectionMark:
-    return SectionMark(
+    mark = SectionMark(
         _letter(entry["letter"], what),
         revived(Pair, entry["place"], f"{what}.place"),
         revived(tuple[Pair, Pair] | None, entry["line"], f"{what}.line"),
         revived(Pair, entry["back"], f"{what}.back"),
     )
+    _finite((*mark.name, *mark.back, *(x for end in mark.line or () for x in end)), what)
+    return mark
+
+
+def _finite(numbers: Iterable[float], what: str) -> None:
+    """Raise ValueError for places that are none."""
+    if not all(map(math.isfinite, numbers)):
+        raise ValueError(f"{what} has coordinates that are no numbers")
 
 
 def _letter(value: Any, what: str) -> str:

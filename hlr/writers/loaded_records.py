@@ -28,14 +28,17 @@ def common(document: dict[str, Any]) -> dict[str, Any]:
     accuracy: Accuracy = revived(Accuracy, document["accuracy"], "accuracy")
     if not isinstance(document["timings"], dict):
         raise ValueError("timings should be an object")
+    model = document["model"]
+    if not isinstance(model, dict):
+        raise ValueError("model should be an object")
     timings = dict(document["timings"])
     seconds = timings.pop("effects", {})
     found: dict[str, Any] = {
         "source": revived(str, document["source"], "source"),
         "scale": positive(document["scale"], "scale"),
         "accuracy": accuracy,
-        "unit": positive(document["model"]["unit"], "model.unit"),
-        "up_axis": revived(tuple[tuple[float, float, float], ...], document["model"]["up_axis"], "model.up_axis"),
+        "unit": positive(model["unit"], "model.unit"),
+        "up_axis": revived(tuple[tuple[float, float, float], ...], model["up_axis"], "model.up_axis"),
         # A later program may know more codes.
         "notes": tuple(
             Note(note["code"], revived(str, note["text"], "notes")) for note in objects(document["notes"], "notes")
@@ -127,8 +130,10 @@ def _curve(entry: dict[str, Any], what: str) -> Curve:
     return Bezier(degree, points)
 
 
-def _style(values: dict[str, Any]) -> Style:
+def _style(values: Any) -> Style:
     """The style as it was written, field by field; the records check themselves."""
+    if not isinstance(values, dict):
+        raise ValueError("style should be an object")
     try:
         lines = {"lines": tuple(LineRule(**rule) for rule in values["lines"])} if "lines" in values else {}
         return Style(**{**values, **lines})

@@ -182,6 +182,13 @@ def test_what_cannot_be_is_refused(method, views, options, words):
         hlr.draw_arranged(bracket(), method, views, hlr.Options(**options))
 
 
+def test_views_are_listed_as_of_other_functions():
+    (one,) = hlr.draw_arranged(bracket(), views="front").sheet.views
+    assert one.name == "front"
+    with pytest.raises(hlr.ViewError, match=r"^3 is no list of views: give names such as 'iso', or directions\.$"):
+        hlr.draw_arranged(bracket(), views=3)
+
+
 def test_it_is_drawn_twice_at_most(monkeypatch):
     asked = []
     draw = arranged.draw_views

@@ -141,6 +141,11 @@ def test_what_is_no_template_is_refused(template, changes, words):
         ({"room": (50, 0, 20, 100)}, "room needs two corners in millimetres"),
         ({"room": "A4"}, "room needs two corners in millimetres"),
         ({"template": None, "texts": {"TITLE": "x"}}, "texts are for the fields of a template"),
+        ({"texts": "TITLE"}, "texts are needed by the keys of fields, such as {'TITLE': 'Bracket'}, not 'TITLE'"),
+        ({"texts": {"TITLE": "a\x07b"}}, r"the text for TITLE has the character '\x07', which SVG cannot hold"),
+        ({"texts": {"TITLE": "a\udcffb"}}, r"the text for TITLE has the character '\udcff', which SVG cannot hold"),
+        ({"template": 3}, "template needs the name of an SVG file, not 3"),
+        ({"template": ""}, "template needs the name of an SVG file, not ''"),
     ],
 )
 def test_what_contradicts_is_refused(template, options, words):

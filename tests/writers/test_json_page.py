@@ -1,6 +1,7 @@
 """Pages of several views as JSON: each view with its place, parts and lines; read back, it is the same page."""
 
 import json
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -131,6 +132,11 @@ def test_a_page_comes_back_as_it_was(arranged, tmp_path):
         assert made[0] == made[1]
 
 
+def test_a_page_without_sections_comes_back():
+    page = hlr.draw_arranged(two_bodies(), views=["front", "top"])
+    assert isinstance(page.lines, tuple) and loads(page.to_json()) == page
+
+
 def test_a_page_of_a_document_comes_back_with_its_own_order_of_views():
     asked = by_hand(template='<svg width="9" viewBox=\'0 0 9 9\'><g id="a"><text>x</text></g></svg><path d="M0 0"/>')
     found = loads(asked.to_json())
@@ -175,6 +181,11 @@ def damaged(*path, value=None):
         (damaged("sections", 0, "letter", value="<script>"), "sections[0].letter should be a letter such as A"),
         (damaged("sections", 0, "line", value=[[0, 0]]), "sections[0].line should be a list of 2"),
         (damaged("texts", value={"TITLE": 7}), "texts.TITLE should be text"),
+        (damaged("model", value=7), "model should be an object"),
+        (damaged("style", value=7), "style should be an object"),
+        (damaged("views", 1, "place", value=[math.nan, 1]), "views[1] has coordinates that are no numbers"),
+        (damaged("views", 0, "origin", value=[0, math.inf]), "views[0] has coordinates that are no numbers"),
+        (damaged("sections", 0, "back", value=[0, math.inf]), "sections[0] has coordinates that are no numbers"),
         (damaged("template", value="<svg>"), "its template is no sound XML"),
         (damaged("template", value="</svg><svg>"), "its template is no sound XML"),
     ],
