@@ -118,7 +118,7 @@ NO_OBJECT = "of type {} cannot be drawn"
         (None, NO_OBJECT.format("NoneType")),
         (5, NO_OBJECT.format("int")),
         (b"part.step", NO_OBJECT.format("bytes")),
-        ("", "is a folder"),
+        ("", "the name of the source is empty: name a model file"),
         ("no such file.step", "no such file.step does not exist"),
         ("/", "is a folder"),
         ("a\0b.step", "does not exist"),
