@@ -83,6 +83,8 @@ def test_when_the_time_of_the_batch_is_up_the_next_run_goes_on(go, tmp_path):
             "message": f"{source['source']} is not drawn: the batch has taken its 0.2 s; run it again to go on, or "
             "raise total_time_limit_s (--total-time-limit).",
         }
+    slowest = (tmp_path / "out/summary.md").read_text("utf-8").partition("## Slowest")[2]
+    assert "| a.off | 0.00 |" in slowest and "b.off" not in slowest, "those that were not begun took no time"
     report, asked = go(total_time_limit_s=60.0)
     assert asked == ["b.off", "bad.off", "sub/c.off"] and report["counts"]["failed"] == 1
 
