@@ -17,7 +17,7 @@ from hlr.batch.job import Job, Outcome, failed
 from hlr.batch.kept import Kept
 from hlr.batch.manifest import Manifest
 from hlr.batch.parameters import check_parameters
-from hlr.batch.plan import Plan
+from hlr.batch.plan import REPORTS, Plan
 from hlr.batch.request import check, wrong_one
 from hlr.common.numbers import typed
 from hlr.drawing import files
@@ -59,7 +59,7 @@ def run(plan: Plan, kept: Kept, pool: Callable[[], Pool], listener: Listener) ->
     Where the time of the whole batch is up, what runs is ended; jobs that are not drawn have failed.
 
     Raises OptionError, ViewError where an option of a job cannot be drawn, before anything is; WriteError where
-    nothing can be written into the folder of outputs.
+    the report cannot be written into the folder of outputs.
     """
     limit = plan.manifest.total_time_limit_s
     deadline = time.monotonic() + limit if limit else math.inf
@@ -73,7 +73,7 @@ def run(plan: Plan, kept: Kept, pool: Callable[[], Pool], listener: Listener) ->
     check_parameters(plan, {plan.jobs[number].rule for number in todo if plan.jobs[number].parameters})
     listener.planned(plan, todo)
     if todo:
-        files.check_writable(plan.output / "manifest.json", make_folder=True)
+        _check_output(plan.output)
         for event in pool().run([plan.jobs[number] for number in todo], deadline):
             number = todo[event.number]
             if event.outcome is None:
@@ -90,6 +90,14 @@ def run(plan: Plan, kept: Kept, pool: Callable[[], Pool], listener: Listener) ->
         listener.out_of_time(len(late))
         outcomes |= {number: _late(plan.jobs[number], limit) for number in late}
     return Done(plan, tuple(outcomes[number] for number in range(len(plan.jobs))), tuple(sorted(todo)))
+
+
+def _check_output(folder: Path) -> None:
+    """Raise WriteError where the report cannot be written into the folder of outputs: it comes last of all."""
+    from hlr.batch.page.write import FOLDER, INDEX
+
+    for name in (*REPORTS, INDEX, f"{FOLDER}/data.js"):
+        files.check_writable(folder / name, make_folder=True)
 
 
 def _late(job: Job, limit: float) -> Outcome:

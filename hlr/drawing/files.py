@@ -115,7 +115,7 @@ def _make_folder(path: Path) -> None:
     try:
         path.mkdir(parents=True, exist_ok=True)
     except (FileExistsError, NotADirectoryError):
-        other = next((each for each in (path, *path.parents) if each.exists()), path)
+        other = next((each for each in (path, *path.parents) if each.exists() or each.is_symlink()), path)
         raise WriteError(f"cannot write into {path}: {other} is not a folder") from None
 
 

@@ -99,6 +99,24 @@ def test_a_folder_that_cannot_be_written_into_is_refused_before_any_work(go, tmp
     assert pool.asked == [] and list((tmp_path / "out").iterdir()) == []
 
 
+@pytest.mark.parametrize(
+    ("there", "words"),
+    [
+        ("page", "page/data.js: .*page is not a folder"),
+        ("index.html/a", "index.html: it is a folder; give a file name"),
+        ("junit.xml/a", "junit.xml: it is a folder; give a file name"),
+    ],
+)
+def test_what_is_in_the_place_of_the_report_is_told_before_any_work(go, tmp_path, there, words):
+    path = tmp_path / "out" / there
+    path.parent.mkdir(parents=True)
+    path.write_text("")
+    pool = FakePool()
+    with pytest.raises(WriteError, match=words):
+        go(pool)
+    assert pool.asked == []
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs a named pipe")
 def test_a_pipe_among_the_models_is_not_waited_for(go, tmp_path):
     os.mkfifo(tmp_path / "pipe.off")

@@ -104,6 +104,13 @@ def test_a_file_is_not_replaced_in_a_folder_that_cannot_be_written_into(tmp_path
     assert files.check_writable(Path(os.devnull)) is not None
 
 
+def test_a_link_that_leads_nowhere_is_no_folder(tmp_path):
+    (tmp_path / "link").symlink_to(tmp_path / "nothing")
+    for folder in (tmp_path / "link", tmp_path / "link/sub"):
+        with pytest.raises(WriteError, match=r"cannot write into .*: .*/link is not a folder"):
+            files.write_all({}, [folder])
+
+
 def test_a_bug_while_rendering_leaves_nothing(tmp_path, monkeypatch):
     from hlr.drawing import saving
 
