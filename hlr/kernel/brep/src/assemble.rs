@@ -47,7 +47,7 @@ impl Corners {
     }
 }
 
-fn corners(meshed: &Tessellation, topology: &PartTopology) -> Corners {
+fn corners(model: &Model, meshed: &Tessellation, topology: &PartTopology) -> Corners {
     let lines = topology.edges.iter().filter_map(|edge| meshed.lines[edge.edge as usize].as_ref());
     let count = lines.map(|line| line.points.len()).sum();
     let mut out = Corners {
@@ -76,12 +76,20 @@ fn corners(meshed: &Tessellation, topology: &PartTopology) -> Corners {
         }
         out.start.push(out.of_edge.len() as u32);
     }
+    for face in &topology.faces {
+        let (Some(copies), &[one, two]) = (model.copies[face.face as usize], &face.uses[..]) else { continue };
+        let (from, to) = (out.start[one as usize] as usize, out.start[two as usize] as usize);
+        let count = out.of(one as usize).len();
+        for k in 0..count {
+            out.of_edge[to + if copies.reversed { count - 1 - k } else { k }] = out.of_edge[from + k];
+        }
+    }
     out
 }
 
 fn part(model: &Model, meshed: &Tessellation, number: usize) -> PartMesh {
     let topology = &model.topology[number];
-    let mut corners = corners(meshed, topology);
+    let mut corners = corners(model, meshed, topology);
     let mut out = PartMesh::default();
     let meshes = || topology.faces.iter().map(|face| &meshed.faces[face.face as usize].mesh);
     let [triangles, points]: [usize; 2] =

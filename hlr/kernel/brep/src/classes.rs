@@ -44,14 +44,15 @@ pub fn classes(shapes: Shapes, part: &PartTopology, number: usize) -> Classes {
         }
         [_] if !placed.inner => whole(EdgeClass::Boundary),
         [one, two] => {
-            let found = [one, two].map(|face| side(shapes, part, face, number as u32));
+            let beside = [one, two].map(|face| across(shapes, part, face, number as u32));
+            let found = beside.map(|(face, edge)| side(shapes, part, face, edge));
             let met = match found {
                 [Some(one), Some(two)] => meeting(&[one, two], edge.tangent),
                 _ => Meeting::Unknown,
             };
             match met {
                 Meeting::Unknown => whole(sharp_or(edge.tangent, EdgeClass::Smooth)),
-                Meeting::Whole(true) if divides(shapes, part, [one, two], number as u32) => whole(EdgeClass::Seam),
+                Meeting::Whole(true) if divides(shapes, part, beside, number as u32) => whole(EdgeClass::Seam),
                 Meeting::Whole(smooth) => whole(sharp_or(smooth, EdgeClass::Smooth)),
                 Meeting::Pieces(smooth, shares) => {
                     let [first, last] = edge.range;
@@ -73,6 +74,19 @@ fn uses<'a>(shapes: Shapes<'a>, part: &'a PartTopology, face: u32, number: u32) 
     part.places(number, face).map(|[wire, k]| &wires[wire][k])
 }
 
+/// A face at an edge, and the edge; where the face has no area, the face beyond it, and its edge.
+fn across(shapes: Shapes, part: &PartTopology, face: u32, number: u32) -> (u32, u32) {
+    let placed = &part.faces[face as usize];
+    let beyond = || {
+        let copies = shapes.copies[placed.face as usize].filter(|copies| !copies.reversed);
+        let (Some(_), &[one, two]) = (copies, &placed.uses[..]) else { return None };
+        let other = if one == number { two } else { one };
+        let beside = part.edges.get(other as usize)?.faces.iter().find(|&&f| f != face)?;
+        Some((*beside, other))
+    };
+    beyond().unwrap_or((face, number))
+}
+
 fn side<'a>(shapes: Shapes<'a>, part: &'a PartTopology, face: u32, number: u32) -> Option<Side<'a>> {
     one_side(shapes, &part.faces[face as usize], uses(shapes, part, face, number).next()?)
 }
@@ -85,12 +99,12 @@ fn one_side<'a>(shapes: Shapes<'a>, placed: &'a PartFace, used: &Use) -> Option<
 }
 
 /// Whether a tangent edge only divides one surface into two faces.
-fn divides(shapes: Shapes, part: &PartTopology, faces: [u32; 2], number: u32) -> bool {
-    let beside = |face: u32| {
+fn divides(shapes: Shapes, part: &PartTopology, faces: [(u32, u32); 2], number: u32) -> bool {
+    let beside = |(face, edge): (u32, u32)| {
         let placed = &part.faces[face as usize];
-        uses(shapes, part, face, number).next().map(|used| Beside { placed, used })
+        uses(shapes, part, face, edge).next().map(|used| Beside { placed, used })
     };
-    let of_faces = faces.map(|face| shapes.faces[part.faces[face as usize].face as usize].tolerance);
+    let of_faces = faces.map(|(face, _)| shapes.faces[part.faces[face as usize].face as usize].tolerance);
     let tolerance = shapes.edges[part.edges[number as usize].edge as usize].tolerance + of_faces[0] + of_faces[1];
     matches!(faces.map(beside), [Some(one), Some(other)] if one_surface(shapes, one, other, tolerance))
 }

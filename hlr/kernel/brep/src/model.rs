@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::classes::{Classes, classes};
+use crate::copies::{Copies, copies};
 use crate::explore::{self, Part};
 use crate::format::{Damaged, Dump, Kind, Locations, On, Orientation, Shape, Sub, SurfaceRecord};
 use crate::geometry::curve::Curve;
@@ -22,6 +23,8 @@ pub struct Model {
     pub topology: Vec<PartTopology>,
     /// Classes by part and edge.
     pub classes: Vec<Vec<Classes>>,
+    /// By face: the edges of those that have no area.
+    pub copies: Vec<Option<Copies>>,
     /// Curves in (u, v), as curves in space with z = 0.
     pub curves2: Vec<Option<Curve>>,
 }
@@ -66,14 +69,15 @@ impl Model {
             |part, locations| part_topology(part, &faces, &edges, locations),
         );
         let (parts, curves2) = (found.parts, std::mem::take(&mut dump.curves2));
-        let mut model = Model { locations, edges, faces, parts, topology, classes: Vec::new(), curves2 };
+        let copies = faces.iter().map(|face| copies(face, &edges)).collect();
+        let mut model = Model { locations, edges, faces, parts, topology, classes: Vec::new(), copies, curves2 };
         model.classify();
         Ok(model)
     }
 
     /// Classifies the edges of all parts. Where the class changes along an edge, its polyline gets a corner.
     fn classify(&mut self) {
-        let shapes = Shapes { edges: &self.edges, faces: &self.faces, curves2: &self.curves2 };
+        let shapes = Shapes { edges: &self.edges, faces: &self.faces, curves2: &self.curves2, copies: &self.copies };
         let of_part = |part: &PartTopology| -> Vec<Classes> {
             (0..part.edges.len()).into_par_iter().map(|edge| classes(shapes, part, edge)).collect()
         };

@@ -1,5 +1,6 @@
 //! Underlying edges and faces, and the uses of edges by the wires of faces.
 
+use crate::copies::Copies;
 use crate::format::{Matrix, Orientation, SurfaceRecord, Triangulation};
 use crate::geometry::curve::Curve;
 use crate::geometry::surface::Surface;
@@ -76,4 +77,6 @@ pub struct Shapes<'a> {
     pub edges: &'a [Edge],
     pub faces: &'a [Face],
     pub curves2: &'a [Option<Curve>],
+    /// By face: the edges of those that have no area.
+    pub copies: &'a [Option<Copies>],
 }

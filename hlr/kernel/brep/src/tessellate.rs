@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use crate::copies::Copies;
 use crate::edges::{Polyline, polyline};
 use crate::faces::{Border, Node, border};
 use crate::mesh::{Done, FaceMesh, Fault, Progress, border_share, mesh_face};
@@ -119,6 +120,8 @@ fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch:
     if (watch.stopped)() {
         return None;
     }
+    let copies: Vec<Copies> = model.copies.iter().copied().flatten().collect();
+    copies.iter().for_each(|pair| pair.copy(&model.edges, &mut lines));
     let faces_of = faces_of_edges(model);
     let mut faces: Vec<MeshedFace> = vec![MeshedFace::default(); model.faces.len()];
     let mut wanted: Vec<usize> = (0..model.faces.len()).collect();
@@ -134,7 +137,10 @@ fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch:
                 let divisible = round < MOST_ROUNDS && !settled.contains(&i);
                 let steps = Progress::new(watch.stopped, Some(Done { all: watch.done, face: &told[i] }));
                 let face = &model.faces[i];
-                let tried = steps.watched(|| try_face(model, face, &lines, deflection, angle, divisible, &steps))?;
+                let tried = match model.copies[i] {
+                    Some(_) => Tried::default(),
+                    None => steps.watched(|| try_face(model, face, &lines, deflection, angle, divisible, &steps))?,
+                };
                 let (now, before) = (tried.face.mesh.points.len(), faces[i].mesh.points.len());
                 used.fetch_add(now.saturating_sub(before), Ordering::Relaxed);
                 if !tried.waits {
@@ -157,6 +163,7 @@ fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch:
             }
             faces[i] = face;
         }
+        copies.iter().for_each(|pair| pair.mirror(&mut divided, &lines));
         let mut changed = BTreeSet::new();
         for (edge, chords) in by_edge(&divided) {
             if let Some(line) = &mut lines[edge as usize]
@@ -164,6 +171,12 @@ fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch:
                 && line.divide(model, &model.edges[edge as usize], &chords, deflection)
             {
                 changed.insert(edge);
+            }
+        }
+        for pair in &copies {
+            if pair.edges.iter().any(|edge| changed.contains(edge)) {
+                pair.copy(&model.edges, &mut lines);
+                changed.extend(pair.edges);
             }
         }
         let mut again: BTreeSet<usize> = changed.iter().flat_map(|&e| faces_of[e as usize].iter().copied()).collect();
@@ -193,6 +206,9 @@ fn shares_of_edges(model: &Model) -> Vec<f64> {
         for used in face.wires.iter().flatten() {
             shares[used.edge as usize] = shares[used.edge as usize].min(share);
         }
+    }
+    for [one, two] in model.copies.iter().flatten().map(|pair| pair.edges.map(|e| e as usize)) {
+        shares[one] = shares[one].min(shares[two]);
     }
     shares
 }
@@ -256,6 +272,7 @@ fn each<T: Send + Sync>(
 
 const PLANE: u8 = 1;
 
+#[derive(Default)]
 struct Tried {
     face: MeshedFace,
     /// Chords to be divided, each as edge and number along the edge.

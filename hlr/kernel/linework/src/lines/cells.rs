@@ -38,6 +38,11 @@ impl Cells {
         Some(Cells { low, extent, size, columns, rows })
     }
 
+    /// How far off a coordinate may be that is kept as f32, mm.
+    pub(super) fn rounding(&self) -> f64 {
+        1e-6 * (self.extent[0] + self.extent[1])
+    }
+
     /// The column (k = 0) or row (k = 1) of a coordinate.
     pub(super) fn cell(&self, x: f64, k: usize) -> usize {
         let count = [self.columns, self.rows][k];

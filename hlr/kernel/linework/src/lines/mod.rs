@@ -26,6 +26,7 @@ pub mod ends;
 pub mod finish;
 mod gaps;
 mod meetings;
+mod members;
 mod pairs;
 pub mod runs;
 pub mod simplify;

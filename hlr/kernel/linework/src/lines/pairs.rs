@@ -18,12 +18,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::cells::Cells;
-use super::gaps::{Side, Widths};
+use super::gaps::Side;
+use super::members::{Gaps, Member};
 use super::stretches::Stretches;
 
 /// Comparisons for each side, and stretches for each side, beyond which there are too many: comparing each line with what
 /// is drawn then takes less time, although on one thread (measured on two cores).
-const MOST_TESTS: usize = 64;
+const MOST_TESTS: usize = 512;
 const MOST_FOUND: usize = 16;
 /// Fewer stretches than this are never too many.
 const FEW: usize = 1 << 12;
@@ -48,11 +49,8 @@ pub(super) fn pairs(sides: &[Side], stretches: &Stretches) -> Option<Vec<Pair>> 
     let bands = cells.rows.min(sides.len() / IN_A_BAND + 1);
     // What covers a side lies beside it or beyond its ends by the reach at most, in a corner by both. Half of that is the
     // margin of each, and a little more, as places are rounded and boxes are kept as f32.
-    let rounding = 1e-6 * (cells.extent[0] + cells.extent[1]);
-    let margin = 0.75 * stretches.reach + rounding;
-    // Boxes tell more: of one visibility only what coincides is covered.
-    let Widths { same, under } = stretches.widths;
-    let gaps = [same, same.max(under)].map(|width| (1.5 * width + 2.0 * rounding) as f32);
+    let margin = 0.75 * stretches.reach + cells.rounding();
+    let gaps = Gaps::of(&cells, stretches.widths);
     let in_band = in_bands(&cells, margin, sides, bands);
     let filled: Vec<Band> = in_band
         .into_par_iter()
@@ -112,33 +110,6 @@ fn in_bands(cells: &Cells, margin: f64, sides: &[Side], bands: usize) -> Vec<Vec
     found
 }
 
-/// A side in a cell: its box, from the lower left corner of all.
-#[derive(Clone, Copy, Default)]
-struct Member {
-    low: [f32; 2],
-    high: [f32; 2],
-    side: u32,
-    visible: bool,
-}
-
-impl Member {
-    fn of(number: u32, side: &Side, low: &[f64; 2]) -> Member {
-        let [from, to] = [side.from, side.to].map(|p| [0, 1].map(|k| (p[k] - low[k]) as f32));
-        Member {
-            low: [0, 1].map(|k| from[k].min(to[k])),
-            high: [0, 1].map(|k| from[k].max(to[k])),
-            side: number,
-            visible: side.visible,
-        }
-    }
-
-    /// Whether the boxes come as near to one another as the gap for sides of one visibility, or of two.
-    fn meets(&self, other: &Member, gaps: &[f32; 2]) -> bool {
-        let gap = gaps[usize::from(self.visible != other.visible)];
-        (0..2).all(|k| self.low[k] <= other.high[k] + gap && other.low[k] <= self.high[k] + gap)
-    }
-}
-
 /// A band of rows, cell by cell: members[offsets[c]..offsets[c + 1]].
 struct Band {
     offsets: Vec<u32>,
@@ -185,13 +156,13 @@ impl Band {
     }
 
     /// offsets: of some cells, one after another, and of the one behind them.
-    fn pairs(&self, offsets: &[u32], gaps: &[f32; 2], sides: &[Side], stretches: &Stretches) -> Vec<Pair> {
+    fn pairs(&self, offsets: &[u32], gaps: &Gaps, sides: &[Side], stretches: &Stretches) -> Vec<Pair> {
         let mut out = Vec::new();
         for w in offsets.windows(2) {
             let here = &self.members[w[0] as usize..w[1] as usize];
             for (k, a) in here.iter().enumerate() {
                 for b in &here[k + 1..] {
-                    if a.meets(b, gaps)
+                    if a.may_cover(b, gaps)
                         && let Some((side, by)) = stretches.order(sides, a.side, b.side)
                         && let Some((from, to)) = stretches.covered(&sides[side as usize], &sides[by as usize])
                     {

@@ -4,7 +4,7 @@ use super::gaps::{Side, Widths};
 
 /// Sine of the angle beyond which two lines cross rather than coincide. It is large because the chords of a circle that
 /// was divided in two ways differ in direction. Crossings at smaller angles are recognised by the length they cover.
-const PARALLEL: f64 = 0.5;
+pub(super) const PARALLEL: f64 = 0.5;
 
 /// A little more than one, for what is rounded.
 const SURELY: f64 = 1.0 + 1e-6;
