@@ -7,24 +7,13 @@
 //!
 //! Such a face has no triangles. Its edges have the same points, so that the faces beside it meet as if it were not there.
 
-use std::collections::BTreeSet;
-
-use crate::edges::Polyline;
 use crate::geometry::vector::{length, sub};
-use crate::shapes::{Edge, Face};
+use crate::shapes::{Copies, Edge, Face};
 
 /// Parts of an edge between which it is compared with the other.
 const PARTS: u32 = 16;
 /// Of the length of an edge: a copy is no farther off, whatever the tolerance of a file.
 const FARTHEST: f64 = 1e-4;
-
-/// The two edges of a face of no area.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Copies {
-    pub edges: [u32; 2],
-    /// Whether they run in opposite directions.
-    pub reversed: bool,
-}
 
 /// The edges of a face if one is a copy of the other.
 pub fn copies(face: &Face, edges: &[Edge]) -> Option<Copies> {
@@ -54,33 +43,4 @@ pub fn copies(face: &Face, edges: &[Edge]) -> Option<Copies> {
     }
     let near = a.tolerance.max(b.tolerance).min(FARTHEST * long);
     (apart <= near).then_some(Copies { edges: [one.edge, two.edge], reversed })
-}
-
-impl Copies {
-    /// Adds to chords, edge and number along the edge, those of the other edge that are copies of them.
-    pub fn mirror(&self, chords: &mut BTreeSet<(u32, u32)>, lines: &[Option<Polyline>]) {
-        let [one, two] = self.edges;
-        for (from, to) in [(one, two), (two, one)] {
-            let Some(last) = lines[from as usize].as_ref().and_then(|l| l.points.len().checked_sub(2)) else { return };
-            let of: Vec<u32> = chords.range((from, 0)..=(from, u32::MAX)).map(|&(_, k)| k).collect();
-            chords.extend(of.into_iter().map(|k| (to, if self.reversed { last as u32 - k } else { k })));
-        }
-    }
-
-    /// Gives the second edge the points of the first.
-    pub fn copy(&self, edges: &[Edge], lines: &mut [Option<Polyline>]) {
-        let [one, two] = self.edges.map(|e| e as usize);
-        let Some(line) = &lines[one] else { return };
-        let ([from, to], [first, last]) = (edges[one].range, edges[two].range);
-        let share = |t: &f64| if self.reversed { (to - t) / (to - from) } else { (t - from) / (to - from) };
-        let mut made = Polyline {
-            parameters: line.parameters.iter().map(|t| first + share(t).clamp(0.0, 1.0) * (last - first)).collect(),
-            points: line.points.clone(),
-        };
-        if self.reversed {
-            made.parameters.reverse();
-            made.points.reverse();
-        }
-        lines[two] = Some(made);
-    }
 }

@@ -7,6 +7,7 @@ pub mod bounds;
 pub mod certificate;
 pub mod classes;
 pub mod continued;
+mod copied_points;
 pub mod copies;
 pub mod divided;
 pub mod edges;

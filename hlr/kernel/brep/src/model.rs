@@ -3,14 +3,14 @@
 use rayon::prelude::*;
 
 use crate::classes::{Classes, classes};
-use crate::copies::{Copies, copies};
+use crate::copies::copies;
 use crate::explore::{self, Part};
 use crate::format::{Damaged, Dump, Kind, Locations, On, Orientation, Shape, Sub, SurfaceRecord};
 use crate::geometry::curve::Curve;
 use crate::geometry::moved_surface::moved;
 use crate::geometry::surface::Surface;
 use crate::part_topology::{PartTopology, part_topology};
-use crate::shapes::{Edge, Face, OnSurface, Shapes, Use};
+use crate::shapes::{Copies, Edge, Face, OnSurface, Shapes, Use};
 
 /// Edges, faces or parts that one thread makes in one go.
 const AT_ONCE: usize = 16;

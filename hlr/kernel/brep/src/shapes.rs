@@ -1,6 +1,5 @@
 //! Underlying edges and faces, and the uses of edges by the wires of faces.
 
-use crate::copies::Copies;
 use crate::format::{Matrix, Orientation, SurfaceRecord, Triangulation};
 use crate::geometry::curve::Curve;
 use crate::geometry::surface::Surface;
@@ -48,6 +47,14 @@ pub struct Face {
     pub wires: Vec<Vec<Use>>,
     /// The face's own triangles, for a face without a surface.
     pub own: Option<Triangulation>,
+}
+
+/// The two edges of a face of no area.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Copies {
+    pub edges: [u32; 2],
+    /// Whether they run in opposite directions.
+    pub reversed: bool,
 }
 
 /// A use of an edge by a wire of a face.

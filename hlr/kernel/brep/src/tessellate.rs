@@ -9,12 +9,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::copies::Copies;
 use crate::edges::{Polyline, polyline};
 use crate::faces::{Border, Node, border};
 use crate::mesh::{Done, FaceMesh, Fault, Progress, border_share, mesh_face};
 use crate::model::Model;
-use crate::shapes::Face;
+use crate::shapes::{Copies, Face};
 
 /// Limit on the rounds in which chords are divided.
 const MOST_ROUNDS: usize = 12;
