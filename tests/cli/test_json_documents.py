@@ -93,6 +93,7 @@ def of_draw(hlr_real):
         (DATA / "freecad" / "spring.step", "--accuracy", "0.1"),
         (DATA / "soup.stl", "--fit", "30x30"),
         (BOX, "--section", "front"),
+        (BOX, "--section", "front@3,6:5"),
         (BOX, "--arrange", "first-angle", "--section", "front", "--hidden"),
         (HOUSING, "--page", "Page"),
     ):

@@ -82,8 +82,8 @@ def test_files_and_figures(box, tmp_path):
         (["box.stl", "-o", "out", "--scale", "1:2", "--fit", "20x20"], "contradict"),
         (["box.stl", "-o", "out", "--runs", "0"], "runs"),
         (["text.step", "-o", "out"], "cannot be studied"),
-        (("box.stl", "-o", "out", "--accuracy", "nan"), "accuracy nan mm cannot be kept"),
-        (("box.stl", "-o", "out", "--accuracy", "inf"), "accuracy inf mm cannot be kept"),
+        (("box.stl", "-o", "out", "--accuracy", "nan"), "'nan' is not a number"),
+        (("box.stl", "-o", "out", "--accuracy", "inf"), "'inf' is not a number"),
         (("box.stl", "-o", "out", "--accuracy", "1e-15", "--no-rivals", "--runs", "1"), "is too fine for a drawing"),
     ],
 )
