@@ -50,7 +50,7 @@ def plan_views(
         return []
     found: dict[int, ViewPlan] = {}
     with at_most(options.threads):
-        for numbers, session, drafts in _sittings(source, views, options, progress):
+        for numbers, session, drafts in _groups(source, views, options, progress):
             for number, draft in zip(numbers, drafts, strict=True):
                 image = session.shown(draft)
                 draft.planner.on("window")
@@ -63,7 +63,7 @@ def plan_views(
     return [found[number] for number in range(len(views))]
 
 
-def _sittings(
+def _groups(
     source: Any, views: Sequence[View], options: Options, progress: Progress | None
 ) -> Iterator[tuple[Sequence[int], Session, list[Draft]]]:
     """What is drawn of the source and of what sections leave of it: numbers of views, and their drafts."""
@@ -71,13 +71,13 @@ def _sittings(
         session = Session(source, views, options, progress)
         yield range(len(views)), session, session.drafts(lines_alone=True)
         return
-    from hlr.pipeline.section.draw import sittings_of
+    from hlr.pipeline.section.draw import groups_of
     from hlr.request.section import check_sections
     from hlr.source.selection import open_selected
 
     check_sections(options.section, views)
-    for sitting in sittings_of(open_selected(source, options), views, options, progress):
-        yield sitting.numbers, sitting.session, sitting.drafts()
+    for group in groups_of(open_selected(source, options), views, options, progress):
+        yield group.numbers, group.session, group.drafts()
 
 
 __all__ = ["ViewPlan", "plan_views"]

@@ -18,7 +18,7 @@ def placed(shape):
 
 
 def test_a_placed_cylinder_reaches_as_far_as_its_rims():
-    extent = ShapeMeasures(placed(cq.Solid.makeCylinder(2.0, 5.0))).extent(AXES)
+    extent = ShapeMeasures(placed(cq.Solid.makeCylinder(2.0, 5.0))).extent(*AXES.tolist())
     middle = AXES @ np.array([1.0, 2.0, 5.5])
     half = np.abs(AXES[:, 2]) * 2.5 + 2.0 * np.hypot(AXES[:, 0], AXES[:, 1])
     assert np.allclose(extent, [middle - half, middle + half], rtol=0.0, atol=1e-12)
@@ -26,8 +26,8 @@ def test_a_placed_cylinder_reaches_as_far_as_its_rims():
 
 def test_edges_without_faces_reach_and_nothing_reaches_nowhere():
     wire = cq.Edge.makeLine(cq.Vector(0, 0, 0), cq.Vector(3, 0, 4)).wrapped
-    assert np.allclose(ShapeMeasures(wire).extent(AXES), [[0, 0, 0], [5, 0, 0]], rtol=0.0, atol=1e-12)
-    assert ShapeMeasures(cq.Compound.makeCompound([]).wrapped).extent(AXES) is None
+    assert np.allclose(ShapeMeasures(wire).extent(*AXES.tolist()), [[0, 0, 0], [5, 0, 0]], rtol=0.0, atol=1e-12)
+    assert ShapeMeasures(cq.Compound.makeCompound([]).wrapped).extent(*AXES.tolist()) is None
 
 
 @pytest.mark.parametrize(

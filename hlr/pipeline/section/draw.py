@@ -43,7 +43,7 @@ class _Cut:
 
 
 @dataclass(frozen=True, slots=True)
-class Sitting:
+class ViewGroup:
     """Views that are drawn of one source: all those that are not cut, or a section.
 
     numbers: of the views; cut: None where they are not cut
@@ -80,16 +80,16 @@ def draw_sections(
     views, options: checked. Raises as that, and OptionError where a plane cuts nothing or leaves nothing.
     """
     opened = open_selected(source, options)
-    sittings = sittings_of(opened, views, options, progress)
+    groups = groups_of(opened, views, options, progress)
     if noted is not None:
         noted(
-            [note for sitting in sittings for placement in sitting.session.placements for note in placement.notes]
-            + [note for sitting in sittings if sitting.cut for note in _failed(views[sitting.numbers[0]], sitting.cut)]
+            [note for group in groups for placement in group.session.placements for note in placement.notes]
+            + [note for group in groups if group.cut for note in _failed(views[group.numbers[0]], group.cut)]
         )
     found: dict[int, Drawing] = {}
-    for sitting in sittings:
-        session, cut = sitting.session, sitting.cut
-        for k, draft in zip(sitting.numbers, sitting.drafts(), strict=True):
+    for group in groups:
+        session, cut = group.session, group.cut
+        for k, draft in zip(group.numbers, group.drafts(), strict=True):
             session.progress("visibility", len(found) / len(views))
             scale = draft.image.placement.scale
             asked = at_scale(options, scale) if options.same_scale else options
@@ -104,24 +104,24 @@ def draw_sections(
     return drawings
 
 
-def sittings_of(
+def groups_of(
     opened: Source, views: Sequence[View], options: Options, progress: Progress | None = None
-) -> list[Sitting]:
+) -> list[ViewGroup]:
     """What is drawn of a source and of what planes leave of it. Raises as `draw_sections`."""
     if progress is not None:
         progress("section", 0.0)
     cuts = [_cut_for(view, opened, options) for view in views]
     plain = [k for k, cut in enumerate(cuts) if cut is None]
-    sittings: list[Sitting] = []
+    groups: list[ViewGroup] = []
     if plain:
         alone = replace(options, section=None)
-        sittings.append(Sitting(plain, Session(opened, [views[k] for k in plain], alone, progress), None))
+        groups.append(ViewGroup(plain, Session(opened, [views[k] for k in plain], alone, progress), None))
     for k, cut in enumerate(cuts):
         if cut is not None:
             session = Session(cut.source.source, [views[k]], _of_section(options), progress)
             session.clock["source"] += cut.seconds
-            sittings.append(Sitting([k], session, cut))
-    return sittings
+            groups.append(ViewGroup([k], session, cut))
+    return groups
 
 
 def _cut_for(view: View, source: Source, options: Options) -> _Cut | None:

@@ -50,8 +50,7 @@ def cut_away(leaves: Sequence[Leaf], origin: Floats, normal: Floats) -> list[Lea
         UncuttableError: OpenCASCADE cannot cut one of them.
     """
     normal = normal / float(np.linalg.norm(normal))
-    axes = _axes(origin, normal)
-    along = np.array([axes.XDirection().X(), axes.XDirection().Y(), axes.XDirection().Z()])
+    along, _ = _across(_axes(origin, normal))
     return cut_at(leaves, Stepped(normal, along, np.array([origin @ normal]), np.zeros(0)), origin)
 
 
@@ -106,10 +105,9 @@ def _cut(shape: Any, planes: Stepped, origin: Floats, name: str) -> Any | None:
 def _box(shape: Any, origin: Floats, normal: Floats) -> Floats | None:
     """(2, 3) the lower and the upper corner of a box around a shape, whose third axis goes from the plane along its
     normal, and whose others are those of `_block`; None where it has no geometry."""
-    axes = _axes(origin, normal)
-    x, y = (np.array([way.X(), way.Y(), way.Z()]) for way in (axes.XDirection(), axes.YDirection()))
-    rows = np.array([x, y, normal])
-    found = ShapeMeasures(shape).extent(rows)
+    rows = np.array([*_across(_axes(origin, normal)), normal])
+    x, y, z = rows.tolist()
+    found = ShapeMeasures(shape).extent(x, y, z)
     return None if found is None else found - rows @ origin
 
 
@@ -119,13 +117,19 @@ def _axes(origin: Floats, normal: Floats) -> Any:
     return gp_Ax2(gp_Pnt(*origin.tolist()), gp_Dir(*normal.tolist()))
 
 
+def _across(axes: Any) -> tuple[Floats, Floats]:
+    """The first and the second direction of axes, (3,) each."""
+    x, y = (np.array([way.X(), way.Y(), way.Z()]) for way in (axes.XDirection(), axes.YDirection()))
+    return x, y
+
+
 def _block(origin: Floats, normal: Floats, middle: Floats, size: float) -> Any:
     """A box that stands on the plane, 2 `size` wide and `size` high, over the middle (3,) of a box of `_box`."""
     from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox
     from OCP.gp import gp_Pnt
 
     axes = _axes(origin, normal)
-    x, y = (np.array([way.X(), way.Y(), way.Z()]) for way in (axes.XDirection(), axes.YDirection()))
+    x, y = _across(axes)
     corner = origin + (middle[0] - size) * x + (middle[1] - size) * y
     axes.SetLocation(gp_Pnt(*corner.tolist()))
     return BRepPrimAPI_MakeBox(axes, 2.0 * size, 2.0 * size, size).Shape()
@@ -138,7 +142,7 @@ def _prism(planes: Stepped, origin: Floats, middle: Floats, size: float) -> Any:
     from OCP.gp import gp_Pnt, gp_Vec
 
     axes = _axes(origin, planes.normal)
-    x, y = (np.array([way.X(), way.Y(), way.Z()]) for way in (axes.XDirection(), axes.YDirection()))
+    x, y = _across(axes)
     centre = origin + middle[0] * x + middle[1] * y + middle[2] * planes.normal
     across = np.cross(planes.normal, planes.along)
     begin, end = (float(centre @ planes.along) + sense * 2.0 * size for sense in (-1.0, 1.0))

@@ -1,4 +1,4 @@
-"""How far one shape of OpenCASCADE reaches, and its volume, by the kernel: OpenCASCADE takes seconds for either."""
+"""How far one shape of OpenCASCADE reaches, and its volume, by the kernel: OpenCASCADE may take a second for either."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from hlr import _kernel
 from hlr.common.types import Floats
+from hlr.request.options import Vector
 from hlr.source.cad.cut_check import volume as exact_volume
 from hlr.source.cad.prototypes import LivePrototypes
 from hlr.source.cad.shapes import location_matrix, with_location
@@ -30,15 +31,11 @@ class ShapeMeasures:
         self._place = np.array(location_matrix(shape.Location()), np.float64).reshape(1, 3, 4)
         self._model: _kernel.BrepModel = LivePrototypes([with_location(shape, None)]).model
 
-    def extent(self, axes: Floats) -> Floats | None:
-        """(2, 3) from where to where the shape reaches along three directions of length 1; None where it has no points.
-
-        axes (3, 3): the directions, one a row
-        """
+    def extent(self, x: Vector, y: Vector, z: Vector) -> Floats | None:
+        """(2, 3) from where to where the shape reaches along three directions of length 1; None where it has no points."""
         box = self._model.boxes()[0]
         if bool((box[0] > box[1]).any()):
             return None
-        x, y, z = ((x, y, z) for x, y, z in axes.tolist())
         part = np.zeros(1, np.int32)
         ends = [*self._model.reach(part, self._place, x, y), self._model.reach(part, self._place, z, x)[0]]
         return np.array(ends).T

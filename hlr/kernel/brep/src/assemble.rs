@@ -6,7 +6,7 @@ use rustc_hash::{FxBuildHasher, FxHashMap};
 use crate::faces::Node;
 use crate::format::{IDENTITY, Matrix, moved};
 use crate::model::Model;
-use crate::part_topology::PartTopology;
+use crate::part_topology::{PartEdge, PartTopology};
 use crate::shapes::Vertex;
 use crate::tessellate::Tessellation;
 
@@ -76,13 +76,17 @@ fn corners(model: &Model, meshed: &Tessellation, topology: &PartTopology) -> Cor
         }
         out.start.push(out.of_edge.len() as u32);
     }
-    for face in &topology.faces {
-        let (Some(copies), &[one, two]) = (model.copies[face.face as usize], &face.uses[..]) else { continue };
-        let (from, to) = (out.start[one as usize] as usize, out.start[two as usize] as usize);
-        let count = out.of(one as usize).len();
-        for k in 0..count {
-            out.of_edge[to + if copies.reversed { count - 1 - k } else { k }] = out.of_edge[from + k];
+    // Copies of edges have the points of their originals, where these are in the part as well.
+    for (i, edge) in topology.edges.iter().enumerate() {
+        let Some((original, reversed)) = model.edges[edge.edge as usize].original else { continue };
+        let is_original = |other: &PartEdge| other.edge == original && other.location == edge.location;
+        let Some(other) = topology.edges.iter().position(is_original) else { continue };
+        let mut points = out.of(other).to_vec();
+        if reversed {
+            points.reverse();
         }
+        let start = out.start[i] as usize;
+        out.of_edge[start..start + points.len()].copy_from_slice(&points);
     }
     out
 }

@@ -45,7 +45,7 @@ pub fn classes(shapes: Shapes, part: &PartTopology, number: usize) -> Classes {
         [_] if !placed.inner => whole(EdgeClass::Boundary),
         [one, two] => {
             let beside = [one, two].map(|face| across(shapes, part, face, number as u32));
-            let found = beside.map(|(face, edge)| side(shapes, part, face, edge));
+            let found = beside.map(|beside| side_along(shapes, part, beside, number as u32));
             let met = match found {
                 [Some(one), Some(two)] => meeting(&[one, two], edge.tangent),
                 _ => Meeting::Unknown,
@@ -74,17 +74,33 @@ fn uses<'a>(shapes: Shapes<'a>, part: &'a PartTopology, face: u32, number: u32) 
     part.places(number, face).map(|[wire, k]| &wires[wire][k])
 }
 
-/// A face at an edge, and the edge; where the face has no area, the face beyond it, and its edge.
-fn across(shapes: Shapes, part: &PartTopology, face: u32, number: u32) -> (u32, u32) {
-    let placed = &part.faces[face as usize];
-    let beyond = || {
-        let copies = shapes.copies[placed.face as usize].filter(|copies| !copies.reversed);
-        let (Some(_), &[one, two]) = (copies, &placed.uses[..]) else { return None };
+/// A face at an edge, and the edge; where the face has no area, the first beyond it that has one, and its edge.
+fn across(shapes: Shapes, part: &PartTopology, mut face: u32, mut number: u32) -> (u32, u32) {
+    // Each step leads to another face, or around to the first.
+    for _ in 0..part.faces.len() {
+        let placed = &part.faces[face as usize];
+        let &[one, two] = &placed.uses[..] else { break };
         let other = if one == number { two } else { one };
-        let beside = part.edges.get(other as usize)?.faces.iter().find(|&&f| f != face)?;
-        Some((*beside, other))
-    };
-    beyond().unwrap_or((face, number))
+        let beyond = part.edges.get(other as usize).and_then(|edge| edge.faces.iter().find(|&&f| f != face));
+        let (true, Some(&beyond)) = (shapes.faces[placed.face as usize].no_area, beyond) else { break };
+        (face, number) = (beyond, other);
+    }
+    (face, number)
+}
+
+/// A face at an edge, or at a copy of it, which may run the other way.
+fn side_along<'a>(
+    shapes: Shapes<'a>,
+    part: &'a PartTopology,
+    (face, edge): (u32, u32),
+    number: u32,
+) -> Option<Side<'a>> {
+    let mut found = side(shapes, part, face, edge)?;
+    let [own, other] = [number, edge].map(|e| shapes.edges[part.edges[e as usize].edge as usize].original);
+    if own.is_some_and(|(_, back)| back) != other.is_some_and(|(_, back)| back) {
+        found.curve = found.curve.map(|(curve, [first, last])| (curve, [last, first]));
+    }
+    Some(found)
 }
 
 fn side<'a>(shapes: Shapes<'a>, part: &'a PartTopology, face: u32, number: u32) -> Option<Side<'a>> {

@@ -3,33 +3,41 @@
 use std::collections::BTreeSet;
 
 use crate::edges::Polyline;
-use crate::shapes::{Copies, Edge};
+use crate::shapes::Edge;
 
-impl Copies {
-    /// Adds to chords, edge and number along the edge, those of the other edge that are copies of them.
-    pub fn mirror(&self, chords: &mut BTreeSet<(u32, u32)>, lines: &[Option<Polyline>]) {
-        let [one, two] = self.edges;
-        for (from, to) in [(one, two), (two, one)] {
-            let Some(last) = lines[from as usize].as_ref().and_then(|l| l.points.len().checked_sub(2)) else { return };
-            let of: Vec<u32> = chords.range((from, 0)..=(from, u32::MAX)).map(|&(_, k)| k).collect();
-            chords.extend(of.into_iter().map(|k| (to, if self.reversed { last as u32 - k } else { k })));
+/// Chords, edge and number along the edge, with those of originals instead of those of their copies.
+pub fn of_originals(chords: BTreeSet<(u32, u32)>, edges: &[Edge], lines: &[Option<Polyline>]) -> BTreeSet<(u32, u32)> {
+    let of_original = |(edge, chord): (u32, u32)| match edges[edge as usize].original {
+        Some((original, true)) => {
+            let count = lines[edge as usize].as_ref().map_or(1, |line| line.points.len() as u32 - 1);
+            (original, count - 1 - chord)
         }
-    }
+        Some((original, false)) => (original, chord),
+        None => (edge, chord),
+    };
+    chords.into_iter().map(of_original).collect()
+}
 
-    /// Gives the second edge the points of the first.
-    pub fn copy(&self, edges: &[Edge], lines: &mut [Option<Polyline>]) {
-        let [one, two] = self.edges.map(|e| e as usize);
-        let Some(line) = &lines[one] else { return };
-        let ([from, to], [first, last]) = (edges[one].range, edges[two].range);
-        let share = |t: &f64| if self.reversed { (to - t) / (to - from) } else { (t - from) / (to - from) };
-        let mut made = Polyline {
-            parameters: line.parameters.iter().map(|t| first + share(t).clamp(0.0, 1.0) * (last - first)).collect(),
-            points: line.points.clone(),
-        };
-        if self.reversed {
-            made.parameters.reverse();
-            made.points.reverse();
-        }
-        lines[two] = Some(made);
+/// Gives the copies of these originals their points. Returns the numbers of the copies.
+pub fn copy_points(edges: &[Edge], lines: &mut [Option<Polyline>], originals: impl Fn(u32) -> bool) -> Vec<u32> {
+    let mut changed = Vec::new();
+    for (number, edge) in (0..).zip(edges) {
+        let Some((original, reversed)) = edge.original.filter(|(original, _)| originals(*original)) else { continue };
+        lines[number as usize] = lines[original as usize].as_ref().map(|line| {
+            let ([from, to], [first, last]) = (edges[original as usize].range, edge.range);
+            let own = |t: &f64| {
+                let way = if reversed { to - t } else { t - from };
+                first + (way / (to - from)).clamp(0.0, 1.0) * (last - first)
+            };
+            let mut made =
+                Polyline { parameters: line.parameters.iter().map(own).collect(), points: line.points.clone() };
+            if reversed {
+                made.parameters.reverse();
+                made.points.reverse();
+            }
+            made
+        });
+        changed.push(number);
     }
+    changed
 }

@@ -3,14 +3,14 @@
 use rayon::prelude::*;
 
 use crate::classes::{Classes, classes};
-use crate::copies::copies;
+use crate::copies::mark_copies;
 use crate::explore::{self, Part};
 use crate::format::{Damaged, Dump, Kind, Locations, On, Orientation, Shape, Sub, SurfaceRecord};
 use crate::geometry::curve::Curve;
 use crate::geometry::moved_surface::moved;
 use crate::geometry::surface::Surface;
 use crate::part_topology::{PartTopology, part_topology};
-use crate::shapes::{Copies, Edge, Face, OnSurface, Shapes, Use};
+use crate::shapes::{Edge, Face, OnSurface, Shapes, Use};
 
 /// Edges, faces or parts that one thread makes in one go.
 const AT_ONCE: usize = 16;
@@ -23,8 +23,6 @@ pub struct Model {
     pub topology: Vec<PartTopology>,
     /// Classes by part and edge.
     pub classes: Vec<Vec<Classes>>,
-    /// By face: the edges of those that have no area.
-    pub copies: Vec<Option<Copies>>,
     /// Curves in (u, v), as curves in space with z = 0.
     pub curves2: Vec<Option<Curve>>,
 }
@@ -48,7 +46,7 @@ impl Model {
     pub fn of(mut dump: Dump, parts: &[Vec<Sub>]) -> Result<Model, Damaged> {
         let found = explore::explore(&mut dump, parts)?;
         let mut locations = std::mem::replace(&mut dump.locations, Locations::none());
-        let edges = made(
+        let mut edges = made(
             &found.edges,
             &mut locations,
             |shape| edge_unplaced(&dump, *shape),
@@ -56,12 +54,13 @@ impl Model {
         );
         let mut number = vec![None; dump.shapes.len()];
         (0..).zip(&found.edges).for_each(|(i, &shape)| number[shape as usize] = Some(i));
-        let faces = made(
+        let mut faces = made(
             &found.faces,
             &mut locations,
             |shape| face_unplaced(&dump, *shape),
             |shape, locations| face(&dump, *shape, locations, &number, &edges),
         );
+        mark_copies(&mut faces, &mut edges);
         let topology = made(
             &found.parts,
             &mut locations,
@@ -69,15 +68,14 @@ impl Model {
             |part, locations| part_topology(part, &faces, &edges, locations),
         );
         let (parts, curves2) = (found.parts, std::mem::take(&mut dump.curves2));
-        let copies = faces.iter().map(|face| copies(face, &edges)).collect();
-        let mut model = Model { locations, edges, faces, parts, topology, classes: Vec::new(), copies, curves2 };
+        let mut model = Model { locations, edges, faces, parts, topology, classes: Vec::new(), curves2 };
         model.classify();
         Ok(model)
     }
 
     /// Classifies the edges of all parts. Where the class changes along an edge, its polyline gets a corner.
     fn classify(&mut self) {
-        let shapes = Shapes { edges: &self.edges, faces: &self.faces, curves2: &self.curves2, copies: &self.copies };
+        let shapes = Shapes { edges: &self.edges, faces: &self.faces, curves2: &self.curves2 };
         let of_part = |part: &PartTopology| -> Vec<Classes> {
             (0..part.edges.len()).into_par_iter().map(|edge| classes(shapes, part, edge)).collect()
         };
@@ -147,6 +145,7 @@ fn edge(dump: &Dump, shape: u32, locations: &mut Locations) -> Edge {
         polygon: None,
         only_on: None,
         joints: Vec::new(),
+        original: None,
     };
     for on in on {
         match *on {
@@ -239,5 +238,5 @@ fn face(dump: &Dump, shape: u32, locations: &mut Locations, number: &[Option<u32
         }
         wires.push(uses);
     }
-    Face { record, surface: read, tolerance, wires, own }
+    Face { record, surface: read, tolerance, wires, own, no_area: false }
 }

@@ -29,6 +29,8 @@ pub struct Edge {
     pub only_on: Option<(usize, Surface)>,
     /// Parameters at which its polyline has a corner, ascending.
     pub joints: Vec<f64>,
+    /// The edge of which it is a copy, and whether it runs the other way.
+    pub original: Option<(u32, bool)>,
 }
 
 /// An edge's curves in (u, v) of a surface, one for each sense where the edge is a seam.
@@ -47,14 +49,8 @@ pub struct Face {
     pub wires: Vec<Vec<Use>>,
     /// The face's own triangles, for a face without a surface.
     pub own: Option<Triangulation>,
-}
-
-/// The two edges of a face of no area.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Copies {
-    pub edges: [u32; 2],
-    /// Whether they run in opposite directions.
-    pub reversed: bool,
+    /// It lies between an edge and a copy of it.
+    pub no_area: bool,
 }
 
 /// A use of an edge by a wire of a face.
@@ -84,6 +80,4 @@ pub struct Shapes<'a> {
     pub edges: &'a [Edge],
     pub faces: &'a [Face],
     pub curves2: &'a [Option<Curve>],
-    /// By face: the edges of those that have no area.
-    pub copies: &'a [Option<Copies>],
 }

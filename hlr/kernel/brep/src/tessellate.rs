@@ -9,11 +9,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use crate::copied_points::{copy_points, of_originals};
 use crate::edges::{Polyline, polyline};
 use crate::faces::{Border, Node, border};
 use crate::mesh::{Done, FaceMesh, Fault, Progress, border_share, mesh_face};
 use crate::model::Model;
-use crate::shapes::{Copies, Face};
+use crate::shapes::Face;
 
 /// Limit on the rounds in which chords are divided.
 const MOST_ROUNDS: usize = 12;
@@ -119,8 +120,7 @@ fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch:
     if (watch.stopped)() {
         return None;
     }
-    let copies: Vec<Copies> = model.copies.iter().copied().flatten().collect();
-    copies.iter().for_each(|pair| pair.copy(&model.edges, &mut lines));
+    copy_points(&model.edges, &mut lines, |_| true);
     let faces_of = faces_of_edges(model);
     let mut faces: Vec<MeshedFace> = vec![MeshedFace::default(); model.faces.len()];
     let mut wanted: Vec<usize> = (0..model.faces.len()).collect();
@@ -136,10 +136,7 @@ fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch:
                 let divisible = round < MOST_ROUNDS && !settled.contains(&i);
                 let steps = Progress::new(watch.stopped, Some(Done { all: watch.done, face: &told[i] }));
                 let face = &model.faces[i];
-                let tried = match model.copies[i] {
-                    Some(_) => Tried::default(),
-                    None => steps.watched(|| try_face(model, face, &lines, deflection, angle, divisible, &steps))?,
-                };
+                let tried = steps.watched(|| try_face(model, face, &lines, deflection, angle, divisible, &steps))?;
                 let (now, before) = (tried.face.mesh.points.len(), faces[i].mesh.points.len());
                 used.fetch_add(now.saturating_sub(before), Ordering::Relaxed);
                 if !tried.waits {
@@ -162,9 +159,8 @@ fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch:
             }
             faces[i] = face;
         }
-        copies.iter().for_each(|pair| pair.mirror(&mut divided, &lines));
         let mut changed = BTreeSet::new();
-        for (edge, chords) in by_edge(&divided) {
+        for (edge, chords) in by_edge(&of_originals(divided, &model.edges, &lines)) {
             if let Some(line) = &mut lines[edge as usize]
                 && line.points.len() < MOST_CORNERS
                 && line.divide(model, &model.edges[edge as usize], &chords, deflection)
@@ -172,12 +168,8 @@ fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch:
                 changed.insert(edge);
             }
         }
-        for pair in &copies {
-            if pair.edges.iter().any(|edge| changed.contains(edge)) {
-                pair.copy(&model.edges, &mut lines);
-                changed.extend(pair.edges);
-            }
-        }
+        let copied = copy_points(&model.edges, &mut lines, |edge| changed.contains(&edge));
+        changed.extend(copied);
         let mut again: BTreeSet<usize> = changed.iter().flat_map(|&e| faces_of[e as usize].iter().copied()).collect();
         for i in waiting {
             if again.insert(i) {
@@ -206,8 +198,10 @@ fn shares_of_edges(model: &Model) -> Vec<f64> {
             shares[used.edge as usize] = shares[used.edge as usize].min(share);
         }
     }
-    for [one, two] in model.copies.iter().flatten().map(|pair| pair.edges.map(|e| e as usize)) {
-        shares[one] = shares[one].min(shares[two]);
+    for (i, edge) in model.edges.iter().enumerate() {
+        if let Some((original, _)) = edge.original {
+            shares[original as usize] = shares[original as usize].min(shares[i]);
+        }
     }
     shares
 }
@@ -291,6 +285,9 @@ fn try_face(
     divisible: bool,
     steps: &Progress,
 ) -> Tried {
+    if face.no_area {
+        return Tried::default();
+    }
     let failed = |fault, coarse| Tried {
         face: MeshedFace { fault: Some(fault), ..MeshedFace::default() },
         coarse,

@@ -8,7 +8,6 @@ use super::stretches::PARALLEL;
 const ROUNDED: f32 = 1e-5;
 
 /// How near boxes of sides come where the one may cover the other, mm: of one visibility, of two.
-#[derive(Clone, Copy)]
 pub(super) struct Gaps([f32; 2]);
 
 impl Gaps {
