@@ -32,7 +32,7 @@ class ShapeMeasures:
         self._model: _kernel.BrepModel = LivePrototypes([with_location(shape, None)]).model
 
     def extent(self, x: Vector, y: Vector, z: Vector) -> Floats | None:
-        """(2, 3) from where to where the shape reaches along three directions of length 1; None where it has no points."""
+        """(2, 3) from where to where the shape reaches along directions of length 1; None where it has no points."""
         box = self._model.boxes()[0]
         if bool((box[0] > box[1]).any()):
             return None

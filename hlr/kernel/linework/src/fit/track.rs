@@ -1,7 +1,7 @@
 //! The parameters of a curve: its period if it is closed, start values for a search, the nearest point to a given one.
 
 use hlr_brep::geometry::curve::{Curve, Vec3};
-use hlr_exact::elementary::atan2;
+use hlr_exact::elementary::{asinh, atan2};
 
 /// Samples per span of a B-spline from which Newton's method may begin.
 const PLACES: usize = 8;
@@ -108,7 +108,7 @@ impl Track {
                 let (x, y) = ((ad * bb - bd * ab) / det, (bd * aa - ad * ab) / det);
                 match curve {
                     Curve::Ellipse { .. } => atan2(y, x),
-                    Curve::Hyperbola { .. } => y.asinh(),
+                    Curve::Hyperbola { .. } => asinh(y),
                     _ => y,
                 }
             }
