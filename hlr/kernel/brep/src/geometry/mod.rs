@@ -6,6 +6,7 @@ pub mod jet;
 pub mod moved_surface;
 pub mod nurbs;
 pub mod offset_curve;
+mod offset_surface;
 pub mod periodic;
 pub mod planar;
 mod spans;

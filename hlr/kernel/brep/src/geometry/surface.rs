@@ -16,8 +16,9 @@ use std::f64::consts::TAU;
 
 use super::curve::Curve;
 use super::jet::upright;
+use super::offset_surface;
 use super::spline_surface::SplineSurface;
-use super::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
+use super::vector::{Vector, add, along, cross, dot, scaled, sub, unit};
 
 #[derive(Clone, Debug)]
 pub struct Frame {
@@ -108,13 +109,14 @@ impl Surface {
                 (along(&p, way, v), d, *way)
             }
             Surface::Spline(s) => s.d1(u, v),
-            Surface::Offset(basis, distance) => offset(basis, *distance, [u, v]),
+            Surface::Offset(basis, distance) => offset_surface::d1(basis, *distance, [u, v]),
         }
     }
 
     pub fn point(&self, uv: [f64; 2]) -> Vector {
         match self {
             Surface::Spline(s) => s.point(uv[0], uv[1]),
+            Surface::Offset(basis, distance) => offset_surface::point(basis, *distance, uv),
             _ => self.d1(uv).0,
         }
     }
@@ -218,21 +220,4 @@ impl Frame {
             along(&scaled(&out, -minor * sin), &self.z, minor * cos),
         )
     }
-}
-
-/// The normal of an offset surface is that of its basis; its derivatives are difference quotients of normals on both
-/// sides.
-fn offset(basis: &Surface, distance: f64, uv: [f64; 2]) -> (Vector, Vector, Vector) {
-    let (p, du, dv) = basis.d1(uv);
-    let Some(n) = upright(&du, &dv) else { return (p, du, dv) };
-    let turned = |side: usize, derivative: &Vector| {
-        let step = 1e-6 * (1.0 + distance.abs()) / (length(derivative) + 1e-12);
-        let at = |sign: f64| {
-            let mut place = uv;
-            place[side] += sign * step;
-            basis.normal(place).unwrap_or(n)
-        };
-        along(derivative, &sub(&at(1.0), &at(-1.0)), distance / (2.0 * step))
-    };
-    (add(&p, &scaled(&n, distance)), turned(0, &du), turned(1, &dv))
 }

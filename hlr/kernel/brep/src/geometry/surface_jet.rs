@@ -2,12 +2,10 @@
 
 use super::curve::Curve;
 use super::jet::Jet;
+use super::offset_surface;
 use super::surface::{Frame, Surface};
-use super::vector::{Vector, add, along, cross, dot, length, scaled, sub};
+use super::vector::{Vector, add, along, cross, dot, scaled, sub};
 use hlr_exact::elementary::sin_cos;
-
-/// Step of the difference quotient for second derivatives of an offset surface, in offset distances.
-const STEP: f64 = 1e-3;
 
 impl Surface {
     pub fn jet(&self, uv: [f64; 2]) -> Jet {
@@ -54,7 +52,7 @@ impl Surface {
                 Jet { point: along(&p, way, v), du, dv: *way, duu, duv: zero, dvv: zero }
             }
             Surface::Spline(s) => s.jet(u, v),
-            Surface::Offset(basis, distance) => offset(basis, *distance, uv),
+            Surface::Offset(basis, distance) => offset_surface::jet(basis, *distance, uv),
         }
     }
 
@@ -110,37 +108,9 @@ impl Surface {
     }
 }
 
-/// First derivatives by Weingarten's equations, second derivatives by differences of these on both sides.
-fn offset(basis: &Surface, distance: f64, uv: [f64; 2]) -> Jet {
-    let first = |uv: [f64; 2]| {
-        let j = basis.jet(uv);
-        let n = cross(&j.du, &j.dv);
-        let size = length(&n);
-        if size <= 1e-12 * (dot(&j.du, &j.du) + dot(&j.dv, &j.dv)) {
-            return (j.point, j.du, j.dv);
-        }
-        let unit = scaled(&n, 1.0 / size);
-        let [nu, nv] = j.changes(&unit, size).map(|change| scaled(&change, distance));
-        (along(&j.point, &unit, distance), add(&j.du, &nu), add(&j.dv, &nv))
-    };
-    let (point, du, dv) = first(uv);
-    let (_, bu, bv) = basis.d1(uv);
-    let between = |side: usize, d: &Vector| {
-        let step = STEP * distance.abs().max(1e-12) / length(d).max(1e-12);
-        let at = |sign: f64| {
-            let mut place = uv;
-            place[side] += sign * step;
-            first(place)
-        };
-        let ((_, au, av), (_, bu, bv)) = (at(1.0), at(-1.0));
-        (scaled(&sub(&au, &bu), 0.5 / step), scaled(&sub(&av, &bv), 0.5 / step))
-    };
-    let ((duu, duv), (_, dvv)) = (between(0, &bu), between(1, &bv));
-    Jet { point, du, dv, duu, duv, dvv }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::vector::length;
     use super::*;
 
     fn surfaces() -> Vec<Surface> {
