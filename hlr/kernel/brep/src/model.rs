@@ -191,7 +191,11 @@ fn edge(dump: &Dump, shape: u32, locations: &mut Locations) -> Edge {
         };
         if found.ends[end].is_none() {
             let location = locations.written(sub.location);
-            let Kind::Vertex { point, .. } = dump.shapes[sub.shape as usize].kind else { continue };
+            let Kind::Vertex { point, tolerance, .. } = dump.shapes[sub.shape as usize].kind else { continue };
+            if degenerate {
+                // A pole lies where its vertex does, and no more exactly.
+                found.tolerance = found.tolerance.max(tolerance);
+            }
             found.ends[end] = Some((sub.shape, location));
             found.end_points[end] = Some(crate::format::moved(&locations.matrix(location), &point));
         }

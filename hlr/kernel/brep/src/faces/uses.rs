@@ -53,11 +53,7 @@ pub fn run(
     let (mut uv, off) = match (surface, curve) {
         (Surface::Plane(_), _) => on_plane(surface, &points),
         (_, Some((curve, range))) => {
-            let mut limit = (EDGE_IN_FACE * deflection).min(tolerance.max(edge.tolerance)).max(1e-9 * extent(&points));
-            if edge.degenerate {
-                // A pole is one point for a whole line in (u, v): no place on it is nearer than another.
-                limit = f64::INFINITY;
-            }
+            let limit = (EDGE_IN_FACE * deflection).min(tolerance.max(edge.tolerance)).max(1e-9 * extent(&points));
             by_curve(surface, curve, range, edge.range, line, &points, limit)
         }
         (_, None) if edge.degenerate => return Err(Fault::Degenerate),
