@@ -750,6 +750,12 @@ class BrepMesh:
         edge in each wire the numbers of its points and their parameters, in the direction of the edge.
         """
 
+    def fill(self, face: int, deflection: float, angle: float) -> bool:
+        """Meshes a face whose loops cross or lie upon one another, as far as they enclose it; False if it cannot.
+
+        deflection: chord error, model units; angle: turning per chord, radians; both as for `BrepModel.mesh`.
+        """
+
     def parts(self, planar: Bools) -> PartTables:
         """The meshes of all parts. planar (faces,): as `BrepModel.planar` gives it."""
 

@@ -168,7 +168,7 @@ class Tessellation:
     """All parts of a source, tessellated.
 
     edge_curves: the curves of edges, given as (m,) parts and (m,) indices in their TopExp edge maps; None for meshes
-    rescued, lost: how many underlying faces OpenCASCADE meshed instead of the kernel, and how many nobody could
+    rescued, lost: how many underlying faces were mended or meshed by OpenCASCADE, and how many nobody could mesh
     """
 
     parts: Sequence[PartMesh]

@@ -249,7 +249,8 @@ class BrepSource:
             return EdgeCurves(found, which.ravel().astype(np.int32), part, transforms)
 
         parts = PartMeshes(kept, placed, surfaces if placed.brep.any() else None)
-        return Tessellation(parts, notes, len(faults.rescued), len(faults.lost), edge_curves)
+        rescued = len(faults.rescued) + len(faults.crossed)
+        return Tessellation(parts, notes, rescued, len(faults.lost), edge_curves)
 
 
 def _precisions(tables: _kernel.PartTables) -> Floats:

@@ -21,23 +21,25 @@ class MeshingFaults:
 
     lost      without triangles
     rescued   meshed by OpenCASCADE's mesher, not by the kernel
+    crossed   neither mesher could: their outlines or holes cross or touch; meshed where these run around something
     turned    a loop of the face has the wrong orientation; it was meshed as if it had the right one
     off       their edges lie off their surface in the model itself, and how far, in model units: those where it shows
     """
 
     lost: list[int] = field(default_factory=list)
     rescued: list[int] = field(default_factory=list)
+    crossed: list[int] = field(default_factory=list)
     turned: list[int] = field(default_factory=list)
     off: dict[int, float] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
-        return bool(self.lost or self.rescued or self.turned)
+        return bool(self.lost or self.rescued or self.crossed or self.turned)
 
     def notes(self, part: str, face_shape: Ints) -> list[Note]:
         """Notes on a part. face_shape (f,): for each of its faces the number of the underlying face."""
-        lost, rescued, turned = (
+        lost, rescued, crossed, turned = (
             np.flatnonzero(np.isin(face_shape, numbers)).tolist() if numbers else []
-            for numbers in (self.lost, self.rescued, self.turned)
+            for numbers in (self.lost, self.rescued, self.crossed, self.turned)
         )
         of = f'Part "{part}": {{}} of {len(face_shape)} faces'
         notes = []
@@ -47,6 +49,10 @@ class MeshingFaults:
             was = "was" if len(rescued) == 1 else "were"
             text = f"{of.format(len(rescued))} {was} meshed by OpenCASCADE ({_listed(rescued)})."
             notes.append(Note("faces-mended", text))
+        if crossed:
+            have = "has" if len(crossed) == 1 else "have"
+            what = f"{have} outlines or holes that cross or touch, and may be drawn wrong there"
+            notes.append(Note("loops-crossed", f"{of.format(len(crossed))} {what} ({_listed(crossed)})."))
         if turned:
             have = "has" if len(turned) == 1 else "have"
             what = f"{have} an outline or a hole that runs the wrong way round"

@@ -1,4 +1,4 @@
-"""Tessellation of prototypes by the kernel; faces that it cannot mesh are meshed by OpenCASCADE."""
+"""Tessellation of prototypes by the kernel; faces that it cannot mesh are meshed by OpenCASCADE, else mended."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Tessellator:
         return meshed.parts(self._planar), faults
 
     def _rescue_failed(self, meshed: _kernel.BrepMesh, deflection: float, angle: float) -> MeshingFaults:
-        """Mesh with OpenCASCADE the faces that the kernel could not mesh."""
+        """Mesh the faces that the kernel could not: with OpenCASCADE, and else what their crossing loops enclose."""
         failed = {number for number, _ in meshed.faults()}
         faults = MeshingFaults(turned=[number for number, _ in meshed.turned()])
         if not failed:
@@ -59,6 +59,8 @@ class Tessellator:
             give_up = len(faults.lost) >= MAX_FAILED_RESCUES
             if not give_up and rescue(meshed, number, face, deflection, angle):
                 faults.rescued.append(number)
+            elif meshed.fill(number, deflection, angle):
+                faults.crossed.append(number)
             else:
                 faults.lost.append(number)
         return faults

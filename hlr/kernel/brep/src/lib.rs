@@ -9,6 +9,7 @@ pub mod classes;
 pub mod continued;
 mod copied_points;
 pub mod copies;
+pub mod crossed;
 pub mod divided;
 pub mod edges;
 pub mod explore;

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use crate::copied_points::{copy_points, of_originals};
 use crate::edges::{Polyline, polyline};
 use crate::faces::{Border, Node, border};
-use crate::mesh::{Done, FaceMesh, Fault, Progress, border_share, mesh_face};
+use crate::mesh::{Done, FaceMesh, Fault, Progress, border_share, mesh_face, upon_one_another};
 use crate::model::Model;
 use crate::shapes::Face;
 
@@ -21,6 +21,8 @@ const MOST_ROUNDS: usize = 12;
 /// Limit on the rounds for a face without a proof of its chord error: either its chords or its surface may be the
 /// reason.
 const ROUNDS_UNCERTIFIED: usize = 6;
+/// Limit on the rounds for two chords that lie upon one another: no division parts such edges.
+const ROUNDS_UPON: usize = 4;
 /// Points of all edges, and of all faces: 16 million triangles, about 4 GB of a drawing.
 pub const MOST_POINTS: usize = 8_000_000;
 /// Chord error by the size of a face: below it, the wish is the reason that a face needs too many points. Above it, its
@@ -134,9 +136,11 @@ fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch:
             &lines,
             |i| {
                 let divisible = round < MOST_ROUNDS && !settled.contains(&i);
+                let same = round < ROUNDS_UPON;
                 let steps = Progress::new(watch.stopped, Some(Done { all: watch.done, face: &told[i] }));
                 let face = &model.faces[i];
-                let tried = steps.watched(|| try_face(model, face, &lines, deflection, angle, divisible, &steps))?;
+                let tried =
+                    steps.watched(|| try_face(model, face, &lines, deflection, angle, [divisible, same], &steps))?;
                 let (now, before) = (tried.face.mesh.points.len(), faces[i].mesh.points.len());
                 used.fetch_add(now.saturating_sub(before), Ordering::Relaxed);
                 if !tried.waits {
@@ -275,14 +279,14 @@ struct Tried {
 }
 
 /// Meshes one face. `divisible`: chords that are too coarse can still be divided, and the face is meshed only after
-/// that.
+/// that. `same`: so can chords that lie upon one another.
 fn try_face(
     model: &Model,
     face: &Face,
     lines: &[Option<Polyline>],
     deflection: f64,
     angle: f64,
-    divisible: bool,
+    [divisible, same]: [bool; 2],
     steps: &Progress,
 ) -> Tried {
     if face.no_area {
@@ -333,7 +337,9 @@ fn try_face(
         Err(fault) => {
             let coarse = match &fault {
                 Fault::Crossing(pairs) => {
-                    let ends = pairs.iter().flat_map(|&[a, i, b, j]| [(a, i), (b, j)]);
+                    let upon = if same { vec![false; pairs.len()] } else { upon_one_another(&loops, pairs) };
+                    let parted = pairs.iter().zip(upon).filter(|(_, upon)| !upon);
+                    let ends = parted.flat_map(|(&[a, i, b, j], _)| [(a, i), (b, j)]);
                     ends.filter_map(|(l, c)| *chords.get(l)?.get(c)?).collect()
                 }
                 Fault::NotCertified(_) => chords.iter().flat_map(|row| row.iter().flatten().copied()).collect(),

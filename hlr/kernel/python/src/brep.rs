@@ -15,13 +15,14 @@ use super::parts::{PartTables, to_matrices};
 use super::threads::{FEW, release_later, run, run_telling};
 use hlr_brep::assemble::assemble;
 use hlr_brep::bounds::boxes;
+use hlr_brep::crossed::with_crossed_loops;
 use hlr_brep::divided::{Piece, divided};
 use hlr_brep::explore::Part;
 use hlr_brep::foreign_mesh::{Border, ForeignMesh, with_foreign_mesh};
 use hlr_brep::format::{IDENTITY, Matrix};
 use hlr_brep::geometry::planar::is_flat;
 use hlr_brep::geometry::surface::Surface;
-use hlr_brep::mesh::{OF_A_FACE, points_inside};
+use hlr_brep::mesh::{OF_A_FACE, Progress, points_inside};
 use hlr_brep::model::Model;
 use hlr_brep::one_sphere::is_one_sphere;
 use hlr_brep::reach::{Placed, reach};
@@ -276,6 +277,18 @@ impl BrepMesh {
         };
         let mut meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
         let found = with_foreign_mesh(&self.model, &meshed, face, foreign);
+        Ok(found.map(|found| meshed.faces[face] = found).is_some())
+    }
+
+    /// Meshes a face whose loops cross or lie upon one another, as far as they enclose it. Whether that succeeded.
+    fn fill(&self, py: Python<'_>, face: usize, deflection: f64, angle: f64) -> PyResult<bool> {
+        expect_below("face", [face as i32].into_iter(), self.model.faces.len())?;
+        let mut meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = run(py, FEW + 1, |stopped| {
+            let steps = Progress::new(stopped, None);
+            steps.watched(|| with_crossed_loops(&self.model, &meshed, face, deflection, angle, &steps))
+        })?;
+        let found = found.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
         Ok(found.map(|found| meshed.faces[face] = found).is_some())
     }
 

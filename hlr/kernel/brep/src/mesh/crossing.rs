@@ -1,7 +1,8 @@
 //! Finds chords of a border that cross or touch each other, by exact signs. Used only where meshing a face has failed.
 
+use super::face::FaceLoops;
 use super::outline::Outline;
-use super::plane::side;
+use super::plane::{distance2, side};
 
 /// Limit on the pairs that are listed: more of them would add no information.
 const MOST: usize = 1000;
@@ -30,6 +31,28 @@ pub fn crossings(outline: &Outline) -> Vec<[u32; 2]> {
     }
     found.sort_unstable();
     found
+}
+
+/// Share of the loops' extent within which chords lie upon one another.
+const UPON: f64 = 1e-9;
+
+/// Which of the pairs (loop, chord, loop, chord) lie upon one another, with two of their ends at least.
+pub fn upon_one_another(loops: &FaceLoops, pairs: &[[usize; 4]]) -> Vec<bool> {
+    let size = [0, 1].map(|k| {
+        let all = loops.loops.iter().flatten().map(|p| p.uv[k]);
+        all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
+    });
+    let ends = |l: usize, c: usize| {
+        let points = loops.loops.get(l).filter(|points| c < points.len())?;
+        Some([c, (c + 1) % points.len()].map(|i| [0, 1].map(|k| points[i].uv[k] / size[k])))
+    };
+    let near = |p: &[f64; 2], [a, b]: &[[f64; 2]; 2]| distance2(p, a, b) <= UPON * UPON;
+    let upon = |&[l, c, m, d]: &[usize; 4]| {
+        let (Some(one), Some(other)) = (ends(l, c), ends(m, d)) else { return false };
+        let (of_one, of_other) = (one.iter().filter(|p| near(p, &other)), other.iter().filter(|p| near(p, &one)));
+        of_one.count() + of_other.count() >= 2
+    };
+    pairs.iter().map(upon).collect()
 }
 
 /// Whether two chords with overlapping boxes share a point that is not an end of both. The two sides of a slit, which
@@ -69,5 +92,21 @@ mod tests {
         assert!(meet([o, x], [[0.5, 0.0], y]));
         assert!(meet([o, x], [[0.5, -1.0], [0.4, 1.0]]));
         assert!(!meet([o, x], [[1.5, -1.0], [1.4, 1.0]]));
+    }
+    #[test]
+    fn chords_upon_one_another_share_two_ends_at_least() {
+        use crate::mesh::LoopPoint;
+        let chord =
+            |[a, b]: [[f64; 2]; 2]| [a, b].map(|uv| LoopPoint { uv, point: [uv[0], uv[1], 0.0], node: 0 }).to_vec();
+        let places = [
+            [[0.0, 0.0], [4.0, 0.0]],
+            [[4.0, 0.0], [0.0, 0.0]],
+            [[3.0, 0.0], [9.0, 0.0]],
+            [[1.0, 0.0], [1.0, 5.0]],
+            [[0.0, 1e-6], [4.0, -1e-6]],
+        ];
+        let loops = FaceLoops { loops: places.map(chord).to_vec(), periods: [0.0; 2] };
+        let pairs = [[0, 0, 1, 0], [0, 0, 2, 0], [0, 0, 3, 0], [0, 0, 4, 0], [0, 0, 9, 0]];
+        assert_eq!(upon_one_another(&loops, &pairs), [true, true, false, false, false]);
     }
 }

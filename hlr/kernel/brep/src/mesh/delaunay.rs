@@ -104,6 +104,43 @@ fn inside(mesh: &Mesh, slits: &[[u32; 2]]) -> Vec<[u32; 3]> {
     inner.map(|f| f.vertices().map(|v| v.data().number)).collect()
 }
 
+/// How many times chords that meet at ends only run around what is to the left and to the right of each of them. Each is
+/// given as the numbers of its ends, and how many loops have it, those of the other sense deducted. None where they cross.
+pub fn winding(places: &[[f64; 2]], chords: &[([u32; 2], i32)], steps: &Progress) -> Option<Vec<[i32; 2]>> {
+    let corners = places.iter().zip(0..).map(|(&[x, y], number)| Corner { place: Point2::new(x, y), number, steps });
+    let ends = chords.iter().map(|([a, b], _)| [*a as usize, *b as usize]).collect();
+    let mut crossed = false;
+    let mesh = Mesh::try_bulk_load_cdt(corners.collect(), ends, |_| crossed = true).ok()?;
+    if crossed {
+        return None;
+    }
+    let count = |edge: DirectedEdgeHandle<Corner<'_>, (), spade::CdtEdge<()>, ()>| {
+        let [a, b] = edge.vertices().map(|v| v.data().number);
+        let found = chords.binary_search_by_key(&[a.min(b), a.max(b)], |chord| chord.0);
+        found.map_or(0, |i| if a < b { chords[i].1 } else { -chords[i].1 })
+    };
+    let outside = mesh.outer_face().fix().index();
+    let mut turns: Vec<Option<i32>> = vec![None; mesh.num_all_faces()];
+    turns[outside] = Some(0);
+    let mut stack: Vec<_> = mesh.convex_hull().map(|e| if e.is_outer_edge() { e } else { e.rev() }).collect();
+    while let Some(edge) = stack.pop() {
+        let (here, beyond) = (turns[edge.face().fix().index()]?, edge.rev().face());
+        let place = &mut turns[beyond.fix().index()];
+        if place.is_none() {
+            *place = Some(here - count(edge));
+            stack.extend(beyond.as_inner().into_iter().flat_map(|face| face.adjacent_edges()));
+        }
+    }
+    let mut out = vec![[0; 2]; chords.len()];
+    for edge in mesh.directed_edges() {
+        let [a, b] = edge.vertices().map(|v| v.data().number);
+        if let Ok(i) = chords.binary_search_by_key(&[a, b], |chord| chord.0) {
+            out[i] = [edge, edge.rev()].map(|side| turns[side.face().fix().index()].unwrap_or_default());
+        }
+    }
+    Some(out)
+}
+
 fn toggles(edge: DirectedEdgeHandle<Corner<'_>, (), spade::CdtEdge<()>, ()>, slits: &[[u32; 2]]) -> bool {
     if !edge.is_constraint_edge() {
         return false;

@@ -23,16 +23,19 @@ mod straighten;
 mod strips;
 mod sweep;
 mod triangulation;
+mod untangle;
 
 use std::f64::consts::PI;
 
 use crate::geometry::surface::Surface;
+pub use crossing::upon_one_another;
 use draft::Draft;
 pub use face::{FaceLoops, FaceMesh, Fault, LoopPoint};
 use gap::Corner;
 use hlr_accuracy::MESH_BORDER;
 use outline::Outline;
 pub use progress::{Done, OF_A_FACE, Progress};
+pub use untangle::mesh_crossed;
 
 /// Twice the area of a triangle in (u, v), rounded.
 pub fn area([a, b, c]: &[[f64; 2]; 3]) -> f64 {

@@ -1,5 +1,6 @@
 //! Faces made by hand. Their meshes are compared with dense samples of the surface.
 
+mod crossed;
 mod curved;
 mod flat;
 pub mod shapes;
