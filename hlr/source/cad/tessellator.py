@@ -59,7 +59,7 @@ class Tessellator:
             give_up = len(faults.lost) >= MAX_FAILED_RESCUES
             if not give_up and rescue(meshed, number, face, deflection, angle):
                 faults.rescued.append(number)
-            elif meshed.fill(number, deflection, angle):
+            elif not give_up and meshed.fill(number, deflection, angle):
                 faults.crossed.append(number)
             else:
                 faults.lost.append(number)

@@ -18,19 +18,19 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::delaunay::winding;
-use super::face::{FaceLoops, FaceMesh, Fault, LoopPoint};
+use super::face::{FaceLoops, FaceMesh, LoopPoint};
 use super::mesh_face;
 use super::plane::{distance2, side};
 use super::progress::Progress;
 use crate::geometry::surface::Surface;
 
-/// Share of the loops' extent within which a point lies on a chord, or on another point.
-const NEAR: f64 = 1e-9;
+/// What is tried, one after another: the share of the loops' extent within which a point lies on a chord, or on another
+/// point, and a factor on the deflection. Edges that nearly lie upon one another leave slivers that are too thin to mesh,
+/// and pieces of chords may be too coarse for the deflection.
+const TRIED: [[f64; 2]; 5] = [[1e-9, 1.0], [1e-7, 1.0], [1e-6, 4.0], [1e-5, 16.0], [1e-4, 64.0]];
 /// Limits on the rounds in which chords are divided, and on the points that this adds: with more, there is no outline.
 const MOST_ROUNDS: usize = 20;
 const MOST_NEW: usize = 200_000;
-/// Factors on the deflection that are tried, as pieces may be too coarse for it.
-const COARSER: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
 
 /// The mesh of a face whose loops cross. None where the loops are beyond repair.
 pub fn mesh_crossed(
@@ -40,23 +40,14 @@ pub fn mesh_crossed(
     angle: f64,
     steps: &Progress,
 ) -> Option<FaceMesh> {
-    let mut net = Net::new(loops)?;
-    net.divide(steps)?;
-    let (outlines, place_of) = net.outlines(surface, loops, steps)?;
-    let filled = if outlines.loops.is_empty() {
-        FaceMesh::default()
-    } else {
-        let tried = COARSER.iter().map(|coarser| mesh_face(surface, &outlines, coarser * deflection, angle, steps));
-        tried
-            .scan(true, |going, made| {
-                let more = *going;
-                *going = matches!(made, Err(Fault::NotCertified(_)));
-                more.then_some(made)
-            })
-            .last()?
-            .ok()?
-    };
-    Some(net.joined(surface, loops, &filled, &place_of))
+    TRIED.iter().find_map(|[near, coarser]| {
+        let mut net = Net::new(loops, *near)?;
+        net.divide(steps)?;
+        let (outlines, place_of) = net.outlines(surface, loops, steps)?;
+        let made = || mesh_face(surface, &outlines, coarser * deflection, angle, steps).ok();
+        let filled = if outlines.loops.is_empty() { FaceMesh::default() } else { made()? };
+        Some(net.joined(surface, loops, &filled, &place_of))
+    })
 }
 
 /// A place in (u, v): where points of loops lie, or chords cross.
@@ -69,6 +60,7 @@ struct Place {
 }
 
 struct Net {
+    near: f64,
     low: [f64; 2],
     size: [f64; 2],
     places: Vec<Place>,
@@ -79,7 +71,7 @@ struct Net {
 }
 
 impl Net {
-    fn new(loops: &FaceLoops) -> Option<Net> {
+    fn new(loops: &FaceLoops, near: f64) -> Option<Net> {
         let all = || loops.loops.iter().flatten();
         if !all().flat_map(|p| p.uv.iter().chain(&p.point)).all(|x| x.is_finite()) {
             return None;
@@ -89,7 +81,7 @@ impl Net {
         if size.contains(&0.0) {
             return None;
         }
-        let mut net = Net { low, size, places: Vec::new(), cells: FxHashMap::default(), paths: Vec::new() };
+        let mut net = Net { near, low, size, places: Vec::new(), cells: FxHashMap::default(), paths: Vec::new() };
         let here: Vec<u32> = all().zip(0..).map(|(p, number)| net.place(p.uv, Some(number))).collect();
         let mut start = 0;
         for points in &loops.loops {
@@ -103,11 +95,11 @@ impl Net {
     /// The place at (u, v), which is that of an earlier point if one is near.
     fn place(&mut self, uv: [f64; 2], point: Option<u32>) -> u32 {
         let at = [0, 1].map(|k| (uv[k] - self.low[k]) / self.size[k]);
-        let cell = at.map(|x| (x / NEAR).floor() as i64);
+        let cell = at.map(|x| (x / self.near).floor() as i64);
         for x in -1..=1 {
             for y in -1..=1 {
                 let held = self.cells.get(&[cell[0] + x, cell[1] + y]).into_iter().flatten();
-                let near = |&&i: &&u32| (0..2).all(|k| (self.places[i as usize].at[k] - at[k]).abs() <= NEAR);
+                let near = |&&i: &&u32| (0..2).all(|k| (self.places[i as usize].at[k] - at[k]).abs() <= self.near);
                 if let Some(&found) = held.clone().find(near) {
                     return found;
                 }
@@ -163,7 +155,8 @@ impl Net {
         for (path, places) in (0..).zip(&self.paths) {
             for (piece, ends) in (0..).zip(places.windows(2)) {
                 let [a, b] = [self.at(ends[0]), self.at(ends[1])];
-                let (low, high) = ([0, 1].map(|k| a[k].min(b[k]) - NEAR), [0, 1].map(|k| a[k].max(b[k]) + NEAR));
+                let (low, high) =
+                    ([0, 1].map(|k| a[k].min(b[k]) - self.near), [0, 1].map(|k| a[k].max(b[k]) + self.near));
                 pieces.push(Piece { of: (path, piece), ends: [ends[0], ends[1]], low, high });
             }
         }
@@ -182,7 +175,7 @@ impl Net {
                     for end in beyond.ends {
                         if piece.ends.contains(&end) {
                             touched = true;
-                        } else if distance2(&self.at(end), &from, &to) <= NEAR * NEAR {
+                        } else if distance2(&self.at(end), &from, &to) <= self.near * self.near {
                             found.insert((piece.of.0, piece.of.1, end));
                             touched = true;
                         }
