@@ -738,6 +738,9 @@ class BrepMesh:
     def turned(self) -> list[tuple[int, int]]:
         """Faces with loops that run the wrong way: number, and how many loops."""
 
+    def torn(self) -> list[tuple[int, float]]:
+        """Faces whose surface folds over itself or jumps: number, and the chord error there (model units)."""
+
     def off_their_edges(self, most: float) -> list[tuple[int, float]]:
         """Faces whose edges are farther off their surface than `most` (model units): number, and how far."""
 

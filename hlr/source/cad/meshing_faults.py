@@ -23,6 +23,7 @@ class MeshingFaults:
     rescued   meshed by OpenCASCADE's mesher, not by the kernel
     crossed   neither mesher could: their outlines or holes cross or touch; meshed where these run around something
     turned    a loop of the face has the wrong orientation; it was meshed as if it had the right one
+    torn      their surface folds over itself or jumps, and how far off the mesh may be there, in model units
     off       their edges lie off their surface in the model itself, and how far, in model units: those where it shows
     """
 
@@ -30,16 +31,17 @@ class MeshingFaults:
     rescued: list[int] = field(default_factory=list)
     crossed: list[int] = field(default_factory=list)
     turned: list[int] = field(default_factory=list)
+    torn: dict[int, float] = field(default_factory=dict)
     off: dict[int, float] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
-        return bool(self.lost or self.rescued or self.crossed or self.turned)
+        return bool(self.lost or self.rescued or self.crossed or self.turned or self.torn)
 
     def notes(self, part: str, face_shape: Ints) -> list[Note]:
         """Notes on a part. face_shape (f,): for each of its faces the number of the underlying face."""
-        lost, rescued, crossed, turned = (
+        lost, rescued, crossed, turned, torn = (
             np.flatnonzero(np.isin(face_shape, numbers)).tolist() if numbers else []
-            for numbers in (self.lost, self.rescued, self.crossed, self.turned)
+            for numbers in (self.lost, self.rescued, self.crossed, self.turned, list(self.torn))
         )
         of = f'Part "{part}": {{}} of {len(face_shape)} faces'
         notes = []
@@ -57,6 +59,13 @@ class MeshingFaults:
             have = "has" if len(turned) == 1 else "have"
             what = f"{have} an outline or a hole that runs the wrong way round"
             notes.append(Note("loops-turned", f"{of.format(len(turned))} {what} ({_listed(turned)})."))
+        if torn:
+            has = (
+                "has a surface that folds over itself or jumps" if len(torn) == 1 else "have surfaces that fold or jump"
+            )
+            far = typed(max(self.torn[number] for number in set(face_shape[torn].tolist())), 2)
+            what = f"{has}, and may be {far} mm off there"
+            notes.append(Note("surfaces-torn", f"{of.format(len(torn))} {what} ({_listed(torn)})."))
         return notes
 
     def off_note(self, parts: Iterable[tuple[str, Ints]]) -> Note:

@@ -49,7 +49,7 @@ class Tessellator:
     def _rescue_failed(self, meshed: _kernel.BrepMesh, deflection: float, angle: float) -> MeshingFaults:
         """Mesh the faces that the kernel could not: with OpenCASCADE, and else what their crossing loops enclose."""
         failed = {number for number, _ in meshed.faults()}
-        faults = MeshingFaults(turned=[number for number, _ in meshed.turned()])
+        faults = MeshingFaults(turned=[number for number, _ in meshed.turned()], torn=dict(meshed.torn()))
         if not failed:
             return faults
         # Shapes from the dump: a model from the cache has no others, and must give the same triangles.

@@ -208,6 +208,7 @@ fn ordered(
         triangles: triangles.iter().map(|t| t.map(|i| place[i as usize])).collect(),
         normals: order.iter().map(|i| surface.and_then(|s| s.normal(pick(i))).unwrap_or([0.0; 3])).collect(),
         turned: Vec::new(),
+        torn: 0.0,
     };
     MeshedFace { mesh, nodes, ..MeshedFace::default() }
 }

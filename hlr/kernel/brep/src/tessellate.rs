@@ -306,6 +306,7 @@ fn try_face(
             nodes: Vec::new(),
             triangles: own.triangles.clone(),
             turned: Vec::new(),
+            torn: 0.0,
         };
         return Tried { face: MeshedFace { mesh, ..MeshedFace::default() }, coarse: Vec::new(), waits: false };
     }

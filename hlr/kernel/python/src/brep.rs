@@ -243,6 +243,13 @@ impl BrepMesh {
         count.enumerate().filter(|&(_, loops)| loops > 0).collect()
     }
 
+    /// Numbers of the faces whose surface is torn, each with the chord error there (model units).
+    fn torn(&self) -> Vec<(usize, f64)> {
+        let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
+        let torn = meshed.faces.iter().map(|face| face.mesh.torn);
+        torn.enumerate().filter(|&(_, torn)| torn > 0.0).collect()
+    }
+
     /// Numbers of the faces whose edges are farther off their surface than `most` (model units), each with how far.
     fn off_their_edges(&self, most: f64) -> Vec<(usize, f64)> {
         let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);

@@ -18,6 +18,7 @@ use super::strips::{Strips, strips};
 use super::sweep;
 use super::triangulation::Triangulation;
 use crate::geometry::surface::Surface;
+use crate::geometry::vector::dot;
 use hlr_accuracy::MESH_BESIDE_BORDER;
 use hlr_exact::elementary::hypot;
 
@@ -28,6 +29,8 @@ const MOST: usize = 8_000_000;
 /// Distance in the chart that new points keep from a chord, as a share of the chord's length. The smaller one is used
 /// only where the larger one leaves no place.
 const OFF: [f64; 2] = [0.2, 0.02];
+/// Share of the face's extent in (u, v) below which corners of a triangle never face apart on a sound surface.
+const TORN: f64 = 1e-3;
 
 /// The mesh before its proof. If the loops cannot be filled, their outline, from which the caller can find out why.
 ///
@@ -59,10 +62,10 @@ pub fn triangulate(
     let mut work = Work::new(surface, &field, &chart, deflection, net, steps);
     steps.reached(DONE[1]);
     work.evaluate(&outline, &inner);
-    let error = work.refine();
+    let (error, torn) = work.refine();
     let Work { corners, net, places, .. } = work;
     let (triangles, bent_chart) = (net.into_triangles(), (!straight).then_some(places));
-    Ok(Ok(Draft { outline, corners, triangles, stand_in, error, bent_chart, turned: Vec::new() }))
+    Ok(Ok(Draft { outline, corners, triangles, stand_in, error, torn, bent_chart, turned: Vec::new() }))
 }
 
 /// The largest error of some triangles of a mesh, leaving out those of which the border allows no better.
@@ -209,8 +212,9 @@ impl<'a> Work<'a> {
         self.spans.push(self.field.span(uv));
     }
 
-    /// Inserts points where triangles are too coarse. Returns the largest error that remains.
-    fn refine(&mut self) -> f64 {
+    /// Inserts points where triangles are too coarse. Returns the largest error that remains, and whether it remains
+    /// because the surface is torn.
+    fn refine(&mut self) -> (f64, bool) {
         let (mut worst, mut coarse) = (0.0f64, Vec::new());
         (0..self.net.triangles().len()).for_each(|number| self.judge(number, &mut worst, &mut coarse));
         self.steps.reached(DONE[2]);
@@ -229,7 +233,23 @@ impl<'a> Work<'a> {
                 }
             }
         }
-        coarse.iter().fold(worst, |w, c| w.max(c.gap.whole))
+        let error = coarse.iter().fold(worst, |w, c| w.max(c.gap.whole));
+        (error, coarse.iter().any(|c| self.is_torn(c.corners)))
+    }
+
+    /// Whether the surface is torn within a triangle: its corners are close together in (u, v), but face apart. Spline
+    /// surfaces are torn where both derivatives have one direction, and surfaces at a distance from such ones.
+    fn is_torn(&self, t: [u32; 3]) -> bool {
+        let at = t.map(|i| &self.corners[i as usize]);
+        let close = (0..2).all(|k| {
+            let lines = self.field.lines(k);
+            let range = |all: &mut dyn Iterator<Item = f64>| {
+                all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+            };
+            let [low, high] = range(&mut at.iter().map(|corner| corner.uv[k]));
+            high - low < TORN * (lines[lines.len() - 1] - lines[0])
+        });
+        close && (0..3).any(|i| dot(&at[i].normal, &at[(i + 1) % 3].normal) < 0.0)
     }
 
     /// Judges a triangle. It is coarse if it exceeds the deflection, unless the chords of the border beside it allow no

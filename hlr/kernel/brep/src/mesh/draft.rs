@@ -12,6 +12,8 @@ pub struct Draft {
     /// For each point of the outline the point that the triangles use in its place.
     pub stand_in: Vec<u32>,
     pub error: f64,
+    /// The surface is torn where the error exceeds the deflection.
+    pub torn: bool,
     /// The corners' places in the chart in which the triangles were made, if it is bent.
     pub bent_chart: Option<Vec<[f64; 2]>>,
     /// Numbers of the loops that run the wrong way, once known.

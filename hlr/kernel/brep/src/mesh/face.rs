@@ -36,6 +36,8 @@ pub struct FaceMesh {
     pub normals: Vec<[f64; 3]>,
     /// Numbers of the loops that run the wrong way. They were meshed as if they ran the right way.
     pub turned: Vec<usize>,
+    /// Where the surface is torn, no mesh keeps the deflection: the chord error there. 0 for all other surfaces.
+    pub torn: f64,
 }
 
 /// Why a face has no mesh.

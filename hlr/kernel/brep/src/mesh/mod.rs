@@ -92,10 +92,12 @@ pub fn mesh_face(
     if made.stand_in.iter().zip(nodes).any(|(&i, &node)| nodes[i as usize] != node) {
         return Err(Fault::Degenerate);
     }
-    if made.error > deflection * (1.0 + ROUNDING) {
+    let kept = made.error <= deflection * (1.0 + ROUNDING);
+    if !kept && !made.torn {
         return Err(Fault::NotCertified(made.error));
     }
-    Ok(finish(surface, made))
+    let torn = if kept { 0.0 } else { made.error };
+    Ok(FaceMesh { torn, ..finish(surface, made) })
 }
 
 /// Share of the deflection that the chords of a face's border may use, so that the triangles beside them keep the
@@ -172,7 +174,7 @@ fn flat(surface: &Surface, outline: Outline, deflection: f64, steps: &Progress) 
         _ => Corner { uv, point, normal: surface.normal(uv).unwrap_or_default() },
     };
     let corners = outline.uv.iter().zip(&outline.points).map(corner).collect();
-    Ok(Draft { outline, corners, triangles, stand_in, error, bent_chart: None, turned: Vec::new() })
+    Ok(Draft { outline, corners, triangles, stand_in, error, torn: false, bent_chart: None, turned: Vec::new() })
 }
 
 const ROUNDING: f64 = 1e-9;
@@ -223,6 +225,7 @@ fn finish(surface: &Surface, made: Draft) -> FaceMesh {
         triangles,
         normals: corners.iter().map(|c| c.normal).collect(),
         turned,
+        torn: 0.0,
     }
 }
 

@@ -103,6 +103,11 @@ impl Field {
         }
     }
 
+    /// Values of u (k = 0) or v (k = 1) between cells, ascending, with both ends.
+    pub fn lines(&self, k: usize) -> &[f64] {
+        &self.lines[k]
+    }
+
     pub fn counts(&self) -> [usize; 2] {
         [0, 1].map(|k| self.lines[k].len() - 1)
     }
