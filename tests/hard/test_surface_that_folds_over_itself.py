@@ -1,5 +1,5 @@
-"""A face at 7 mm from a wavy surface whose smallest radius is 5 mm: it folds over itself, and jumps where the surface
-has no normal. No mesher keeps a chord error there; the face is drawn as it is, in bounded time, and a warning says so."""
+"""A face at 7 mm from a wavy surface whose smallest radius is 5 mm: it folds over itself, and jumps where
+the surface has no normal. No mesher keeps a chord error there: the face is drawn as it is, and a warning says so."""
 
 from __future__ import annotations
 
