@@ -59,7 +59,9 @@ def _version(ctx: click.Context, parameter: click.Parameter, wanted: Any) -> Non
         return
     from importlib.metadata import version
 
-    click.echo(f"hlr {version('hlr-drawing')}")
+    from .streams import show
+
+    show(f"hlr {version('hlr-drawing')}")
     ctx.exit()
 
 

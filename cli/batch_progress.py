@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING
 
-import click
-
 from hlr.batch.run import source_size
+from hlr.common.printable import printable
 
 from .signals import Stopped
+from .streams import say
 
 if TYPE_CHECKING:
     from rich.live import Live
@@ -43,15 +43,14 @@ class Lines:
         """As of `Listener`."""
         self._ended += 1
         if outcome.failure is not None or not self.quiet:
-            click.echo(f"{self._ended}/{self._total} {told(self._plan, number, outcome)}", err=True)
+            say(f"{self._ended}/{self._total} {told(self._plan, number, outcome)}")
 
     def out_of_time(self, left: int) -> None:
         """As of `Listener`."""
         those = "it" if left == 1 else "them"
-        click.echo(
+        say(
             f"the time of the batch is up: {left} of {self._total} sources {'is' if left == 1 else 'are'} not drawn; "
-            f"the next run goes on with {those}",
-            err=True,
+            f"the next run goes on with {those}"
         )
 
     def __enter__(self) -> Lines:
@@ -62,7 +61,7 @@ class Lines:
     ) -> None:
         """Of a run that is ended in the middle, say how far it has come."""
         if kind is not None and issubclass(kind, Stopped) and self._ended < self._total and not self.quiet:
-            click.echo(f"stopped: {self._ended} of {self._total} sources are done; there is no new report", err=True)
+            say(f"stopped: {self._ended} of {self._total} sources are done; there is no new report")
 
 
 class Display(Lines):
@@ -128,15 +127,16 @@ class Display(Lines):
         grid = Table.grid(padding=(0, 1))
         grid.add_row(Text(f"{self._ended}/{self._total}"), ProgressBar(1.0, share, width=30), Text(left))
         for number, (stage, since) in sorted(self._running.items()):
-            grid.add_row(Text(""), Text(f"{self._plan.jobs[number].title}: {stage}"), Text(f"{now - since:.0f} s"))
+            title = printable(self._plan.jobs[number].title)
+            grid.add_row(Text(""), Text(f"{title}: {stage}"), Text(f"{now - since:.0f} s"))
         return grid
 
 
 def told(plan: Plan, number: int, outcome: Outcome) -> str:
     """One line about a job that has ended."""
-    title = "".join(c if c.isprintable() else "?" for c in plan.jobs[number].title)
+    title = printable(plan.jobs[number].title)
     if outcome.failure is not None:
-        return f"{title}: failed: {' '.join(outcome.failure.message.split())}"
+        return f"{title}: failed: {printable(' '.join(outcome.failure.message.split()))}"
     warnings = len({note["text"] for drawing in outcome.drawings for note in drawing["notes"] if note["warning"]})
     told = f", {warnings} warning{'s' if warnings > 1 else ''}" if warnings else ""
     views = len(outcome.drawings)

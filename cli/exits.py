@@ -18,7 +18,7 @@ from hlr.errors import HlrError, KernelError, StrictError
 from hlr.tables.entry import listed
 
 from . import guard, signals
-from .streams import ReaderGoneError, printing
+from .streams import ReaderGoneError, printing, say, show
 
 REFUSED = 2
 FAULT = 70
@@ -36,7 +36,7 @@ def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoRet
             result = command.main(args=arguments, prog_name="hlr", standalone_mode=False)
         _leave(result if isinstance(result, int) else 0)
     except click.exceptions.NoArgsIsHelpError as error:
-        _say(error.format_message())
+        say(*error.format_message().split("\n"))
         _leave(REFUSED)
     except click.UsageError as error:
         path = error.ctx.command_path if error.ctx else "hlr"
@@ -67,18 +67,18 @@ def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoRet
 
 def warn(message: str) -> None:
     """Print a warning to standard error."""
-    _say(f"hlr: warning: {_full(message)}")
+    say(f"hlr: warning: {_full(message)}")
 
 
 def remark(message: str) -> None:
     """Print a note to standard error: worth knowing, but no warning."""
-    _say(f"hlr: note: {_full(message)}")
+    say(f"hlr: note: {_full(message)}")
 
 
 def _refuse(message: str, kind: str, code: int = REFUSED) -> NoReturn:
     """Print one sentence to standard error, and with --json the same as JSON to standard output; then end."""
     text = _full(message)
-    _say(f"hlr: {text}")
+    say(f"hlr: {text}")
     if _Asked.json and sys.stdout is not None:
         import json
 
@@ -86,7 +86,7 @@ def _refuse(message: str, kind: str, code: int = REFUSED) -> NoReturn:
 
         document = head("hlr-error") | {"error": {"kind": kind, "message": text, "exit_code": code}}
         with contextlib.suppress(HlrError, ReaderGoneError):
-            sys.stdout.write(json.dumps(document, indent=2) + "\n")
+            show(*json.dumps(document, indent=2).split("\n"))
     _leave(code)
 
 
@@ -112,7 +112,7 @@ def _debug() -> None:
     if os.environ.get("HLR_DEBUG", "") not in ("", "0"):
         import traceback
 
-        traceback.print_exc()
+        say(*traceback.format_exc().rstrip("\n").split("\n"))
 
 
 def _broken_pipe() -> NoReturn:
@@ -135,14 +135,6 @@ def _leave(code: int) -> NoReturn:
     # The modules of OpenCASCADE hold thousands of objects: searching them for garbage takes half a second.
     gc.freeze()
     sys.exit(code)
-
-
-def _say(text: str) -> None:
-    """One line on standard error, if there is one."""
-    if sys.stderr is not None:
-        with contextlib.suppress(OSError):
-            sys.stderr.write(text + "\n")
-            sys.stderr.flush()
 
 
 def _sentence(message: str) -> str:

@@ -4,6 +4,8 @@ Scripts print, and so do libraries below Python. While a drawing is computed, th
 original standard output is reserved for the result.
 
 Text that a command prints, its help too, goes through `Printed`: a full disk or a closed pipe ends every command alike.
+
+What is for people is printed by `show`, `say` and `Output.show` alone: names out of files cannot control the terminal.
 """
 
 from __future__ import annotations
@@ -11,9 +13,13 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from pathlib import Path
 from typing import Any
 
+import click
+
+from hlr.common.printable import printable
 from hlr.errors import WriteError
 
 
@@ -52,6 +58,34 @@ def printing() -> Iterator[None]:
         sys.stdout.flush()
 
 
+def show(*lines: str) -> None:
+    """Print lines for people to standard output."""
+    for line in lines:
+        click.echo(printable(line))
+
+
+def say(*lines: str) -> None:
+    """Print lines for people to standard error, if there is one."""
+    if sys.stderr is not None:
+        with contextlib.suppress(OSError):
+            sys.stderr.writelines(f"{printable(line)}\n" for line in lines)
+            sys.stderr.flush()
+
+
+def clear_line() -> None:
+    """Clear the line of a terminal that standard error is, for what is said next."""
+    if sys.stderr is not None and sys.stderr.isatty():
+        sys.stderr.write("\r\x1b[K")
+
+
+def show_path(path: Path) -> None:
+    """Print a path to standard output: on a terminal for people, else byte for byte, as programs need it."""
+    if sys.stdout is not None and sys.stdout.isatty():
+        show(str(path))
+    else:
+        click.echo(os.fsencode(path))
+
+
 @contextlib.contextmanager
 def _told() -> Iterator[None]:
     """Say in our own words that standard output cannot be written to."""
@@ -65,10 +99,10 @@ def _told() -> Iterator[None]:
 
 
 class Output:
-    """The original standard output. descriptor: None where the process was started without one."""
+    """The original standard output. descriptor: None where the process was started without one; encoding: of text."""
 
-    def __init__(self, descriptor: int | None) -> None:
-        self._descriptor = descriptor
+    def __init__(self, descriptor: int | None, encoding: str = "utf-8") -> None:
+        self._descriptor, self._encoding = descriptor, encoding
 
     @property
     def descriptor(self) -> int:
@@ -86,17 +120,22 @@ class Output:
             while left:
                 left = left[os.write(self._descriptor, left) :]
 
+    def show(self, lines: Iterable[str]) -> None:
+        """Write lines for people. Raises as `put` does."""
+        self.put("".join(f"{printable(line)}\n" for line in lines).encode(self._encoding, "replace"))
+
 
 @contextlib.contextmanager
 def result_only() -> Iterator[Output]:
     """Within this block nothing but the yielded Output can write to standard output."""
     if sys.stdout is not None:
         sys.stdout.flush()
+    encoding = "utf-8" if sys.stdout is None else sys.stdout.encoding
     kept = _duplicate(1)
     _send_to_errors(1)
     try:
         with contextlib.redirect_stdout(sys.stderr):
-            yield Output(kept)
+            yield Output(kept, encoding)
     finally:
         if kept is not None:
             os.dup2(kept, 1)

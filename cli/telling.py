@@ -6,12 +6,11 @@ import sys
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-import click
-
 from hlr.errors import StrictError
 
 from .drawn_files import Targets
 from .exits import remark, warn
+from .streams import clear_line, say
 
 if TYPE_CHECKING:
     from hlr.drawing.drawing import Drawing
@@ -35,8 +34,8 @@ def tell_notes(notes: Iterable[Note], strict: bool = False, quiet: bool = False)
 def tell_early(notes: Iterable[Note], strict: bool = False, quiet: bool = False) -> None:
     """The same while a progress bar may be on the terminal: it is cleared first, and drawn anew below."""
     notes = list(notes)
-    if notes and sys.stderr is not None and sys.stderr.isatty():
-        sys.stderr.write("\r\x1b[K")
+    if notes:
+        clear_line()
     tell_notes(notes, strict, quiet)
 
 
@@ -77,7 +76,7 @@ def tell_report(drawings: Sequence[Drawing]) -> None:
     from hlr.lab.measure.table import table
 
     for drawing in drawings:
-        click.echo(table(drawing), err=True)
+        say(*table(drawing).split("\n"))
 
 
 def tell_plan(drawings: Sequence[Drawing]) -> None:
@@ -86,16 +85,16 @@ def tell_plan(drawings: Sequence[Drawing]) -> None:
 
     for drawing in drawings:
         if len(drawings) > 1:
-            click.echo(drawing.view.name, err=True)
-        click.echo(explained(drawing.plan), err=True)
+            say(drawing.view.name)
+        say(*explained(drawing.plan).split("\n"))
     if drawings and drawings[0].reading:
-        click.echo(f"{drawings[0].reading}.", err=True)
+        say(f"{drawings[0].reading}.")
 
 
 def tell_written(text: str, quiet: bool) -> None:
     """Print a line about what was written, on a terminal only: in a pipe success is silent."""
     if not quiet and sys.stderr is not None and sys.stderr.isatty():
-        click.echo(text, err=True)
+        say(text)
 
 
 def written(drawing: Drawing, targets: Sequence[object]) -> str:

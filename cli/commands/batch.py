@@ -19,6 +19,7 @@ from .. import signals
 from ..batch_progress import Lines, progress
 from ..exits import remark
 from ..parameters import Duration, Vector3, ViewName, Whole
+from ..streams import say, show, show_path
 from ..verb import Verb
 from ..view_options import NO_CACHE
 
@@ -129,22 +130,22 @@ def batch(
         for job in plan.jobs:
             for row in job.files:
                 for file in row:
-                    click.echo(plan.output / file)
+                    show_path(plan.output / file)
         return 0
     if dry_run:
         for job in plan.jobs:
-            click.echo(f"{'unchanged' if kept.find(job) else 'to draw  '}  {job.title}")
+            show(f"{'unchanged' if kept.find(job) else 'to draw  '}  {job.title}")
         return 0
     earlier = _Earlier(plan, baseline, fail_on_change)
     _make_folder(plan.output)
     with ExitStack() as stack:
         # Beside the drawings there is a display to take down, and workers to end.
         stop = stack.enter_context(signals.tidily())
-        show = stack.enter_context(progress(quiet))
+        display = stack.enter_context(progress(quiet))
         pool = _Pool(stack, jobs, address)
-        code, done = _round(plan, kept, digests, show, pool, earlier)
+        code, done = _round(plan, kept, digests, display, pool, earlier)
         if watch:
-            _watch(asked, done, kept, digests, show, pool, earlier, stop)
+            _watch(asked, done, kept, digests, display, pool, earlier, stop)
     return code
 
 
@@ -274,26 +275,28 @@ def _prepared(asked: _Asked) -> tuple[Plan, Kept, Digests]:
     return plan, Kept(None if where is None else Store(where, most_bytes(), DRAWINGS), digests), digests
 
 
-def _round(plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, earlier: _Earlier) -> tuple[int, Done]:
+def _round(
+    plan: Plan, kept: Kept, digests: Digests, display: Lines, pool: _Pool, earlier: _Earlier
+) -> tuple[int, Done]:
     """Draw what has changed, write the report, and say how it went. Returns the exit code, and what was done."""
     from hlr.batch.ci import github
     from hlr.batch.report import write
     from hlr.batch.run import run, tidy
 
     started = time.monotonic()
-    done = run(plan, kept, pool, show)
+    done = run(plan, kept, pool, display)
     tidy(plan.output)
     changed = earlier.changes(done)
     report = write(done, digests, os.environ, changed)
     for line in github(report, plan.manifest.root, os.environ):
-        click.echo(line)
+        show(line)
     _add_to_summary(plan.output / "summary.md")
-    if not show.quiet:
+    if not display.quiet:
         if kept.not_kept:
             remark(f"the next run draws again what it should find in the cache: it cannot be kept ({kept.not_kept})")
-        click.echo(_said(done, time.monotonic() - started), err=True)
+        say(_said(done, time.monotonic() - started))
         if changed is not None:
-            click.echo(f"since {earlier.name}: {changed}", err=True)
+            say(f"since {earlier.name}: {changed}")
     if report["counts"]["failed"]:
         return FAILED, done
     return CHANGED if earlier.fails and changed is not None and changed.any else 0, done
@@ -312,7 +315,7 @@ def _watch(
     done: Done,
     kept: Kept,
     digests: Digests,
-    show: Lines,
+    display: Lines,
     pool: _Pool,
     earlier: _Earlier,
     stop: signals.StopRequest,
@@ -322,17 +325,17 @@ def _watch(
     from hlr.errors import HlrError
 
     root, output = done.plan.manifest.root, done.plan.output
-    if not show.quiet:
-        click.echo(f"watching {root}; Ctrl-C ends it", err=True)
+    if not display.quiet:
+        say(f"watching {root}; Ctrl-C ends it")
     outside = {Path(root, job.source).resolve() for job in done.plan.jobs}
     for changed in changes(root, output, outside, stop):
         if not concern(done, changed):
             continue
         digests.forget(changed)
         try:
-            _, done = _round(asked.plan(), kept, digests, show, pool, earlier)
+            _, done = _round(asked.plan(), kept, digests, display, pool, earlier)
         except HlrError as error:  # a manifest in the middle of being changed
-            click.echo(f"hlr: {error}", err=True)
+            say(f"hlr: {error}")
 
 
 def _make_folder(folder: Path) -> None:
@@ -349,7 +352,7 @@ def _add_to_summary(file: Path) -> None:
             with open(summary, "ab") as opened:
                 opened.write(file.read_bytes() + b"\n")
         except OSError as error:
-            click.echo(f"hlr: warning: {summary}: {error.strerror}", err=True)
+            say(f"hlr: warning: {summary}: {error.strerror}")
 
 
 def _init(sources: tuple[str, ...]) -> int:
@@ -365,5 +368,5 @@ def _init(sources: tuple[str, ...]) -> int:
     if file.exists():
         raise OptionError(f"{file} is there already; change it, or remove it first")
     write_all({file: text_for(folder).encode()})
-    click.echo(f"{file} is written", err=True)
+    say(f"{file} is written")
     return 0

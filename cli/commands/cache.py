@@ -11,6 +11,8 @@ from hlr.cache.store import DRAWINGS
 from hlr.errors import counted
 from hlr.tables.readers import file_titles
 
+from ..streams import show
+
 if TYPE_CHECKING:
     from hlr.cache.store import Kept, Store
 
@@ -48,11 +50,11 @@ def info(as_json: bool) -> None:
         folder = None if store is None else str(store.folder)
         most = None if store is None else store.most
         found = {"folder": folder, "models": models, "drawn": drawn, "bytes": size, "most_bytes": most}
-        click.echo(json.dumps(head("hlr-cache") | found, indent=2))
+        show(*json.dumps(head("hlr-cache") | found, indent=2).split("\n"))
     elif store is None:
-        click.echo(_OFF)
+        show(_OFF)
     else:
-        click.echo(f"{store.folder}: {_told(entries)}, {_mega(size)} of at most {_mega(store.most)}")
+        show(f"{store.folder}: {_told(entries)}, {_mega(size)} of at most {_mega(store.most)}")
 
 
 @cache.command()
@@ -62,13 +64,13 @@ def clear() -> None:
 
     store = _store()
     if store is None:
-        click.echo(_OFF)
+        show(_OFF)
         return
     try:
         gone = store.clear()
     except OSError as error:
         raise WriteError(f"{store.folder} cannot be cleared: {(error.strerror or str(error)).lower()}") from None
-    click.echo(f"{store.folder}: {_told(gone)} removed, {_mega(sum(kept.size for kept in gone))}")
+    show(f"{store.folder}: {_told(gone)} removed, {_mega(sum(kept.size for kept in gone))}")
 
 
 _OFF = "The cache is off (HLR_CACHE)."

@@ -160,7 +160,7 @@ def compare(  # noqa: PLR0913 - one for each option of the command
         if not quiet:
             judged = [who_is_wrong(found)] if fail_on == "ours" and not found.same else []
             told = [found.summary, *judged, *view_rows(found), *rows(found, _MOST_ROWS)[:-1], *left_out(found)]
-            out.put("".join(f"{row}\n" for row in told).encode("utf-8", "replace"))
+            out.show(told)
     return DIFFERENT if fails(found, fail_on) else 0
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from hlr.common.numbers import typed
+from hlr.common.printable import printable
 
 from ..guard import start
 from ..meter import meter
@@ -47,7 +47,6 @@ def info(source: str, time_limit: float | None, as_json: bool, quiet: bool, **ch
     closed: every edge has a face on both sides, and all faces are oriented alike.
     """
     start(source, time_limit, coarser="")
-    encoding = sys.stdout.encoding if sys.stdout is not None else "utf-8"
     with result_only() as out:
         with meter(quiet) as progress:
             import hlr
@@ -60,7 +59,7 @@ def info(source: str, time_limit: float | None, as_json: bool, quiet: bool, **ch
         else:
             text = _table(model)
             tell_notes(model.notes, quiet=quiet)
-        out.put((text + "\n").encode(encoding, "replace"))
+        out.show(text.split("\n"))
 
 
 def _document(model: ModelInfo) -> dict[str, Any]:
@@ -98,7 +97,7 @@ def _table(model: ModelInfo) -> str:
     if len(model.parts) > 1:
         rows.append(_total(model))
     widths = [max(len(row[i]) for row in rows) for i in range(len(_HEADINGS))]
-    lines = [f"{model.source}: {model.kind}, {size} mm{unit}", ""]
+    lines = [f"{printable(model.source)}: {model.kind}, {size} mm{unit}", ""]
     for row in rows:
         cells = [row[0].ljust(widths[0])]
         cells += [cell.rjust(width) for cell, width in zip(row[1:6], widths[1:6], strict=True)]
@@ -107,12 +106,12 @@ def _table(model: ModelInfo) -> str:
 
 
 def _row(part: PartReport) -> tuple[str, ...]:
-    name = "".join(c if c.isprintable() else "?" for c in part.name)
+    name = printable(part.name)
     if len(name) > _LONGEST_NAME:
         name = name[: _LONGEST_NAME - 1] + "…"
     closed = "no" if not part.closed else "yes" if part.oriented else "twisted"
     counts = (str(n) for n in (part.solids, part.faces, part.edges, part.triangles))
-    return (name, *counts, closed, "; ".join(part.defects))
+    return (name, *counts, closed, printable("; ".join(part.defects)))
 
 
 def _total(model: ModelInfo) -> tuple[str, ...]:

@@ -98,7 +98,7 @@ def methods(  # noqa: PLR0913 - one for each option of the command
                 progress=progress,
                 **chosen,
             )
-        out.put(report.text(found).encode("utf-8"))
+        out.show(report.text(found).splitlines())
         if targets:
             from hlr.lab.methods.plot import png
 

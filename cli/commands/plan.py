@@ -64,4 +64,4 @@ def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **
 
             several = len(planned) > 1
             text = "\n\n".join((f"{p.view}\n" if several else "") + explained(p.decisions) for p in planned)
-        out.put((text + "\n").encode("utf-8"))
+        out.show(text.split("\n"))

@@ -13,7 +13,7 @@ from ..guard import start
 from ..meter import meter
 from ..outputs import STDOUT, Target, check, is_folder, place, plan
 from ..parameters import Pixels, Vector3
-from ..streams import result_only
+from ..streams import result_only, say
 from ..telling import tell_notes, tell_written
 from ..verb import Verb
 from ..view_options import CAMERA, CARE, CHOICE, RUN, TIME_LIMIT, VIEW, names_of, options, perspective_of
@@ -90,7 +90,7 @@ def preview(
         if explain:
             from hlr.request.effect import explained
 
-            click.echo("\n\n".join(explained(picture.plan) for picture in pictures), err=True)
+            say(*"\n\n".join(explained(picture.plan) for picture in pictures).split("\n"))
         place(_encoded(pictures, targets, out.put))
     for picture, row in zip(pictures, targets, strict=True):
         where = ", ".join(str(target) for target in row.values())

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from time import perf_counter
 from typing import Any, NamedTuple
 
+from hlr.common.printable import printable
 from hlr.common.values import LateRecords
 
 ASKED, SCENE = "asked", "scene"
@@ -268,7 +269,7 @@ def explained(decisions: Sequence[Decision]) -> str:
     for d in decisions:
         time = "" if d.seconds is None else f"{1000.0 * d.seconds:.1f} ms"
         counts = ", ".join(f"{value} {name.replace('_', ' ')}" for name, value in d.counts.items() if value)
-        rows.append((d.name, "on" if d.on else "off", d.origin, time, counts, d.reason))
+        rows.append((d.name, "on" if d.on else "off", d.origin, time, counts, printable(d.reason)))
     used = [k for k in range(6) if any(row[k] for row in rows[1:])]
     widths = {k: max(len(row[k]) for row in rows) for k in used}
     lines = []

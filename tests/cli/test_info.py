@@ -13,7 +13,7 @@ def test_table(hlr_command):
         "part                                      solids  faces  edges  triangles   closed  defects\n"
         "housing                                        1    120    340       5600      yes\n"
         f"{LONG}       0      3      9         12       no  4 open edges; 1 duplicated face\n"
-        "tw?isted                                       1      6     12         12  twisted\n"
+        "tw\\x1bisted                                    1      6     12         12  twisted\n"
         "3 parts                                        2    129    361       5624      1/3\n"
     )
 

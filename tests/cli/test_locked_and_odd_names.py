@@ -68,4 +68,4 @@ def test_an_empty_name_is_not_the_folder_where_one_is(hlr_real, tmp_path, argume
 def test_a_name_of_several_lines_stays_in_one(tmp_path):
     job = Job(str(tmp_path), "a\nb.off", ("top",), ("svg",), (("a.svg",),))
     found = told(Plan(manifest_of({}, tmp_path), tmp_path, (job,)), 0, failed("SourceError", "no"))
-    assert found == "a?b.off: failed: no"
+    assert found == "a\\nb.off: failed: no"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from hlr.common.printable import printable
 from hlr.compare.compared_view import ComparedView
 from hlr.compare.difference import UNKNOWN, WORDS_OF_TWO_PROGRAMS, Difference, told
 
@@ -25,7 +26,7 @@ def cells_of(each: Difference, words: dict[str, str]) -> tuple[str, ...]:
     seen = {True: "visible", False: "hidden", None: ""}[each.visible]
     line = " ".join(word for word in (seen, "" if each.line_class == UNKNOWN else each.line_class) if word) or UNKNOWN
     became = f", now {each.became}" if each.became else ""
-    name = "".join(c if c.isprintable() else "?" for c in each.part or "")
+    name = printable(each.part or "")
     edge = "" if each.edge is None else f", edge {each.edge}"
     # Parts of a page are called by their view already.
     view = f"{each.view} " if each.view and not (each.part or "").startswith(f"{each.view}/") else ""

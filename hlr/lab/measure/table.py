@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from hlr.common.printable import printable
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.reached import CLASSES
 
@@ -24,8 +25,9 @@ def table(drawing: Drawing) -> str:
     asked = drawing.accuracy.asked
     told = "as usual" if asked is None else f"asked {asked:g}"
     verdict = "kept" if reached.kept() else "NOT KEPT"
+    drawn = printable(f"{drawing.source}, {drawing.view.name}")
     rows = [
-        f"{drawing.source}, {drawing.view.name}: accuracy {reached.accuracy:g} mm ({told}): {verdict}",
+        f"{drawn}: accuracy {reached.accuracy:g} mm ({told}): {verdict}",
         f"  {'error, mm on paper':42} {'worst':>9} {'99 %':>9} {'of':>8}",
     ]
     for name in CLASSES:

@@ -7,6 +7,7 @@ import io
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, fields
 
+from hlr.common.printable import printable
 from hlr.lab.methods import textbook
 from hlr.lab.methods.render import Statistics
 from hlr.lab.methods.timing import Timing
@@ -36,7 +37,8 @@ def tables(timings: Sequence[Timing]) -> list[tuple[str, Table]]:
 def text(timings: Sequence[Timing]) -> str:
     """All tables as text for a terminal."""
     parts = []
-    for title, rows in tables(timings):
+    for title, found in tables(timings):
+        rows = [[printable(cell) for cell in row] for row in found]
         widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
         lines = [
             "  ".join(
