@@ -74,7 +74,7 @@ def draw_arranged_page(
     if len(set(keys)) < len(keys):
         raise OptionError(f"--text gives {max(keys, key=keys.count)} twice: give it once")
     on_page = {**printed, "texts": dict(printed["texts"])}
-    targets = targets_of(outputs, source, [method], format, told["as_json"], printed["template"])
+    targets = targets_of(outputs, source, [method], format, told["as_json"])
     start(source, told["time_limit"])
     with result_only() as out:
         with meter(told["quiet"]) as progress:

@@ -24,11 +24,10 @@ def targets_of(
     names: Sequence[str],
     format: str | None,
     as_json: bool,
-    template: str | None = None,
 ) -> Targets:
     """Where the drawing of each view is written. What cannot be written is refused before any work.
 
-    outputs: file names, patterns, folders, or "-" for standard output; template: of the page.
+    outputs: file names, patterns, folders, or "-" for standard output.
 
     Raises OptionError, WriteError, SourceError.
     """
@@ -42,7 +41,7 @@ def targets_of(
     columns = [_column(output, source, names, format) for output in (outputs or (None,))]
     targets = [target for column in columns for target in column]
     _check_format(format, outputs, targets)
-    check(targets, source, template)
+    check(targets)
     return [list(row) for row in zip(*columns, strict=True)]
 
 

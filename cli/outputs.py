@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import click
+
+from hlr.drawing.originals import SOURCE, Originals
 from hlr.errors import OptionError, SourceError
 
 FIELDS = ("stem", "view", "n")
@@ -64,14 +67,24 @@ def plan(pattern: str | None, source: str, views: Sequence[str], ending: str) ->
     return paths
 
 
-def check(targets: Sequence[Target], source: str | None, template: str | None = None) -> None:
+READ = {
+    "source": SOURCE,
+    "before": SOURCE,
+    "after": SOURCE,
+    "template": "the template",
+    "style": "the style",
+}
+"""Arguments and options of all commands that name a file which is read, and what it is called."""
+
+
+def check(targets: Sequence[Target]) -> None:
     """Refuse outputs that cannot be written, before any work is done.
 
     Raises OptionError where two outputs are the same file, however it is spelled, be it only on file systems that take
-    large and small letters for the same; WriteError for a missing folder, a lack of permission, the source itself, the
-    template of its page, or another model.
+    large and small letters for the same; WriteError for a missing folder, a lack of permission, a file that the
+    command reads, or another model.
     """
-    from hlr.drawing import files, originals
+    from hlr.drawing import files
 
     paths = [(target.path, target.folder is not None) for target in targets if target.path is not None]
     found: dict[str, Path] = {}
@@ -86,19 +99,30 @@ def check(targets: Sequence[Target], source: str | None, template: str | None = 
                 )
             also = "" if same == path else f", which is {same}"
             raise OptionError(f"two things would be written to {path}{also}; give each a name of its own")
-    if source is not None:
-        originals.check_source([path for path, _ in paths], source, template)
+    Originals(_read()).check(path for path, _ in paths)
     for path, make_folder in paths:
         files.check_writable(path, make_folder)
 
 
-def in_folder(folder: str, names: Sequence[str], source: str | None) -> list[Target]:
+def _read() -> Iterator[tuple[Path, str]]:
+    """The files that the command's arguments and options name, and what each is called."""
+    from hlr.request.style_file import file_of
+
+    context = click.get_current_context(silent=True)
+    given = {} if context is None else context.params
+    for name, what in READ.items():
+        path = None if not given.get(name) else file_of(given[name]) if name == "style" else Path(given[name])
+        if path is not None:
+            yield path, what
+
+
+def in_folder(folder: str, names: Sequence[str]) -> list[Target]:
     """Files of these names in a folder, which is made if it does not exist.
 
     Raises WriteError where they cannot be written there.
     """
     found = [Target(Path(folder, name), name.rpartition(".")[2], Path(folder)) for name in names]
-    check(found, source)
+    check(found)
     return found
 
 

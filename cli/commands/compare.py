@@ -132,8 +132,7 @@ def compare(  # noqa: PLR0913 - one for each option of the command
         raise OptionError("--register is for two drawings: leave it out, FreeCAD draws elsewhere on paper")
     sides = [before] if after is None else [before, after]
     targets = [_target(output) for output in outputs]
-    for source in sides:
-        check(targets, source)
+    check(targets)
     models = [side for side in sides if is_model(side)]
     if fail_on == "ours" and len(models) != 1:
         raise OptionError(

@@ -78,7 +78,7 @@ def methods(  # noqa: PLR0913 - one for each option of the command
       hlr methods part.step
       hlr methods part.step --polygons 100 --limit 2 -o figures
     """
-    targets = [] if output is None else in_folder(output, ("methods.csv", "methods.md", "methods.png"), source)
+    targets = [] if output is None else in_folder(output, ("methods.csv", "methods.md", "methods.png"))
     start(source or "methods", time_limit, coarser="")
     with result_only() as out:
         with meter(quiet) as progress:

@@ -130,7 +130,7 @@ def _targets(output: str | None, maps: dict[str, str | None], source: str, names
         for target, path in zip(found, plan(pattern, source, names, "png"), strict=True):
             check_png(path)
             target[what] = Target(path, "png", path.parent if made else None)
-    check([target for row in found for target in row.values()], source)
+    check([target for row in found for target in row.values()])
     return found
 
 

@@ -87,7 +87,7 @@ def study(  # noqa: PLR0913 - one for each option of the command
 
     After Ctrl-C the points that are finished are written.
     """
-    targets = {target.name: target for target in in_folder(output, FILES, source)}
+    targets = {target.name: target for target in in_folder(output, FILES)}
     if scale is not None and fit is not None:
         raise OptionError("--scale and --fit contradict one another; give one of them")
     from hlr.lab.study import plot

@@ -59,7 +59,22 @@ def baseline_of(text: str, plan: Plan) -> Baseline:
         raise OptionError(f"the baseline {text} is no folder: name one with earlier drawings, or git:REVISION")
     if os.path.realpath(folder) == os.path.realpath(plan.output):
         raise OptionError(f"the baseline {text} is the folder that is written to: name a copy of it, or git:REVISION")
+    _check_inside(Path(os.path.realpath(folder)), plan, text)
     return FolderBaseline(folder)
+
+
+def _check_inside(folder: Path, plan: Plan, text: str) -> None:
+    """Raise OptionError where the baseline lies in the folder of outputs, where something is written.
+
+    folder: of the baseline, through links; text: as it was given
+    """
+    output = Path(os.path.realpath(plan.output))
+    if not folder.is_relative_to(output):
+        return
+    inside = folder.relative_to(output)
+    files = (PurePosixPath(file) for job in plan.jobs for row in job.files for file in row)
+    if inside.parts[0] == FOLDER or any(file.is_relative_to(inside.as_posix()) for file in files):
+        raise OptionError(f"the baseline {text} would be overwritten: copy it out of the folder of outputs first")
 
 
 class FolderBaseline:

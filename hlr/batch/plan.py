@@ -17,6 +17,7 @@ from hlr.batch.job import Job
 from hlr.batch.manifest import Manifest, Rule
 from hlr.batch.request import files_of
 from hlr.batch.schema import KEYS, as_list
+from hlr.drawing.originals import SOURCE, Originals
 from hlr.errors import OptionError
 
 MOST_VARIANTS = 10_000
@@ -196,17 +197,21 @@ def _safe(text: str) -> str:
 
 def _check_names(manifest: Manifest, jobs: Sequence[Job], output: Path) -> None:
     """Raise OptionError where two drawings have one file, or one that the report needs, or a template or the like."""
-    used = {
-        os.path.normpath(Path(job.root, name))
-        for job in jobs
-        for name in (*job.depends, *files_of(job.options, job.root).values())
-    }
+    from hlr.batch.page.write import INDEX
+
+    used = Originals(_read(manifest, jobs))
+    for name in (*REPORTS, INDEX):
+        if used.called(output / name) is not None:
+            raise OptionError(
+                f"the report would be written to {output / name}, which a drawing depends on: name another folder of "
+                "outputs (-o), or move that file"
+            )
     first: dict[str, tuple[str, str, Job | None]] = {name: ("the report", name, None) for name in REPORTS}
     for job in jobs:
         for row, view in zip(job.files, job.drawings, strict=True):
             for file in row:
                 what = f"{job.title}, {view}"
-                if os.path.normpath(output / file) in used:
+                if used.called(output / file) is not None:
                     raise _clash(manifest, job, f"{what} would be written to {file}, which a drawing depends on")
                 # As a file system sees it that takes large and small letters for the same.
                 other, same, its = first.setdefault(file.casefold(), (what, file, job))
@@ -219,6 +224,15 @@ def _check_names(manifest: Manifest, jobs: Sequence[Job], output: Path) -> None:
                         raise manifest.error((*job.rule, "files"), text)
                     where = "" if same == file else ", where large and small letters are the same"
                     raise _clash(manifest, job, f"{other} and {what} would both be written to {file}{where}")
+
+
+def _read(manifest: Manifest, jobs: Sequence[Job]) -> Iterator[tuple[Path, str]]:
+    """All files that the jobs are made of, and the manifest itself, as of `Originals`."""
+    if manifest.file is not None:
+        yield manifest.file, "the manifest"
+    yield from ((path, SOURCE) for path in dict.fromkeys(Path(job.root, job.source) for job in jobs))
+    named = (Path(job.root, name) for job in jobs for name in (*job.depends, *files_of(job.options, job.root).values()))
+    yield from ((path, "a file that drawings depend on") for path in dict.fromkeys(named))
 
 
 def _clash(manifest: Manifest, job: Job, message: str) -> OptionError:

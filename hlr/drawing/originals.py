@@ -1,4 +1,4 @@
-"""Files that a drawing must not overwrite: the model that it shows, and files that belong to models."""
+"""Files that a drawing must not overwrite: all that are read for it, and other models."""
 
 from __future__ import annotations
 
@@ -30,24 +30,48 @@ def check_model(path: Path) -> None:
             raise WriteError(f"cannot write {path}: it is a model, and a drawing would destroy it; give another name")
 
 
-def check_source(paths: Iterable[Path], source: str | os.PathLike[str], template: str | None = None) -> None:
-    """Raise WriteError where one of `paths` is the source, however it is spelled or linked, or a file that it names.
+SOURCE = "the source"
+"""What a model is called that is read. The files that it names belong to it."""
 
-    template: of the page, which must stay as well
+
+class Originals:
+    """Files that are read, so that nothing may be written to them, however they are spelled or linked.
+
+    read: the path of each, and what it is called; `SOURCE` stands for a model and for the files that it names
     """
-    originals = [(Path(source), "the source"), *((side, "a file of the model") for side in _sides(Path(source)))]
-    originals += [] if template is None else [(Path(template), "the template")]
-    for path in paths:
-        for original, what in originals:
-            if _same(path, original):
+
+    def __init__(self, read: Iterable[tuple[Path, str]]) -> None:
+        self._called: dict[tuple[int, int], str] = {}
+        for path, what in read:
+            self._add(path, what)
+            for side in _sides(path) if what == SOURCE else ():
+                self._add(side, "a file of the model")
+
+    def _add(self, path: Path, what: str) -> None:
+        file = _identity(path)
+        if file is not None:
+            self._called.setdefault(file, what)
+
+    def called(self, path: Path) -> str | None:
+        """What the file at `path` is called; None: it is not there, or is none of these."""
+        file = _identity(path)
+        return None if file is None else self._called.get(file)
+
+    def check(self, paths: Iterable[Path]) -> None:
+        """Raise WriteError where one of `paths` is one of these files."""
+        for path in paths:
+            what = self.called(path)
+            if what is not None:
                 raise WriteError(f"cannot write {path}: it is {what}, and would be destroyed; give another name")
 
 
-def _same(a: Path, b: Path) -> bool:
+def _identity(path: Path) -> tuple[int, int] | None:
+    """Device and number of a file, through links; None: there is none."""
     try:
-        return os.path.samefile(a, b)
+        there = os.stat(path)
     except (OSError, ValueError):
-        return False
+        return None
+    return there.st_dev, there.st_ino
 
 
 def _sides(source: Path) -> Iterator[Path]:

@@ -53,10 +53,16 @@ def style_of(asked: StyleLike | None) -> Style:
         raise OptionError(f"style needs {_names()}, a TOML file or an hlr.Style, not {asked!r}")
     if isinstance(asked, str) and asked.strip().lower() in STYLES:
         return STYLES[asked.strip().lower()]
-    path = Path(asked)
-    if path.suffix.lower() != ".toml":
+    path = file_of(asked)
+    if path is None:
         raise OptionError(f"there is no style {str(asked)!r}: give {_names()}, or a file that ends in .toml")
     return from_tables(_read(path), f"the style {path.name}")
+
+
+def file_of(asked: str | os.PathLike[str]) -> Path | None:
+    """The file that a style's name stands for; None: it is no file."""
+    path = Path(asked)
+    return path if path.suffix.lower() == ".toml" else None
 
 
 def from_tables(tables: Mapping[str, Any], where: str) -> Style:

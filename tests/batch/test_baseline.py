@@ -129,6 +129,19 @@ def test_an_earlier_drawing_that_is_none_of_ours_has_changed(go, tmp_path):
     assert change["state"] == "changed" and "declares XML entities" in change["summary"]
 
 
+@pytest.mark.parametrize("folder", ["out/baseline", "out/baseline/sub", "out/sub"])
+def test_a_baseline_that_would_be_overwritten_is_refused(folder, tmp_path):
+    tetrahedron(tmp_path / "sub/c.off")
+    asked = plan(manifest_of({"views": ["top"], "files": "sub/c.off"}, tmp_path), tmp_path / "out")
+    for each in (folder, "out/old"):
+        (tmp_path / each).mkdir(parents=True)
+    (tmp_path / "link").symlink_to(tmp_path / folder)
+    for name in (tmp_path / folder, tmp_path / "link"):
+        with pytest.raises(OptionError, match="would be overwritten: copy it out of the folder of outputs first"):
+            baseline_of(str(name), asked)
+    assert baseline_of(str(tmp_path / "out/old"), asked).names() == frozenset()
+
+
 @pytest.mark.parametrize(
     "name",
     ["none", "out", "git:", "git:none", "git:--output=x", "git:v1\n", "git:v1^{/x}", "git:HEAD:out", "git:v1..v1"],

@@ -1,5 +1,6 @@
 """Plans: which sources there are, and what each file is called."""
 
+import os
 import re
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import pytest
 from batch.models import tetrahedron
 
 from hlr.batch.manifest import manifest_of
+from hlr.batch.manifest import read as read_manifest
 from hlr.batch.plan import REPORTS, plan
 from hlr.batch.report import _WRITERS
 from hlr.errors import OptionError
@@ -173,6 +175,44 @@ def test_a_drawing_does_not_take_the_place_of_what_drawings_depend_on(tmp_path):
         ):
             plan(found, tmp_path / "out")
         assert len(plan(found, tmp_path / "other").jobs) == 1
+
+
+@pytest.mark.parametrize("link", [os.symlink, os.link])
+@pytest.mark.parametrize("read", ["a.obj", "paint.mtl", "wood.png", "my.toml", "notes.txt", "hlr.toml"])
+def test_no_drawing_is_written_through_a_link_to_what_is_read(tmp_path, link, read):
+    (tmp_path / "a.obj").write_text("mtllib paint.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (tmp_path / "paint.mtl").write_text("newmtl a\nmap_Kd wood.png\n")
+    for name in ("wood.png", "my.toml", "notes.txt"):
+        (tmp_path / name).write_text("")
+    (tmp_path / "hlr.toml").write_text('views = "top"\nname = "{stem}"\nstyle = "my.toml"\ndepends = "notes.txt"\n')
+    (tmp_path / "out").mkdir()
+    link(tmp_path / read, tmp_path / "out/a.svg")
+    with pytest.raises(
+        OptionError, match=r"a\.obj, top would be written to a\.svg, which a drawing depends on: choose"
+    ):
+        plan(read_manifest(tmp_path / "hlr.toml"), tmp_path / "out")
+    assert len(plan(read_manifest(tmp_path / "hlr.toml"), tmp_path / "other").jobs) == 1
+
+
+def test_a_texture_is_not_drawn_over(tmp_path):
+    (tmp_path / "a.obj").write_text("mtllib paint.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (tmp_path / "paint.mtl").write_text("newmtl a\nmap_Kd out/a-top.png\n")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out/a-top.png").write_bytes(b"wood")
+    with pytest.raises(OptionError, match="which a drawing depends on"):
+        plan(manifest_of({"files": "a.obj", "views": "top", "formats": "png"}, tmp_path), tmp_path / "out")
+
+
+@pytest.mark.parametrize("report", [*REPORTS, "index.html"])
+def test_the_report_does_not_take_the_place_of_what_drawings_depend_on(tmp_path, report):
+    tetrahedron(tmp_path / "a.off")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / report).write_text("")
+    found = manifest_of({"views": "top", "depends": f"out/{report}"}, tmp_path)
+    with pytest.raises(
+        OptionError, match=r"^the report would be written to .*, which a drawing depends on: name anoth"
+    ):
+        plan(found, tmp_path / "out")
 
 
 def test_a_drawing_does_not_take_a_file_of_the_report(tmp_path):

@@ -1,9 +1,13 @@
 """No output destroys the model, however it is spelled or linked, nor a file that belongs to it."""
 
 import os
+import re
 
 import pytest
 import trimesh
+
+from hlr.cli.app import VERBS, command
+from hlr.cli.outputs import READ
 
 BOX = trimesh.creation.box((10, 20, 30))
 SCRIPT = "import cadquery as cq\nresult = cq.Workplane().box(1, 2, 3)\n"
@@ -88,6 +92,48 @@ def test_the_template_of_a_page(refused, tmp_path):
     refused(*page, "-o", "sub/../sheet.svg", words="it is the template, and would be destroyed")
     (tmp_path / "b.svg").symlink_to(tmp_path / "sheet.svg")
     refused(*page, "-o", "b.svg", words="it is the template, and would be destroyed")
+
+
+STYLED = ("draw", "a.stl", "--style", "my.toml")
+
+
+@pytest.mark.parametrize("more", [(), ("--arrange", "first-angle"), ("--within", "1s")])
+def test_the_style(refused, tmp_path, more):
+    (tmp_path / "my.toml").write_text("wide = 1.0\n")
+    refused(
+        *STYLED, *more, "-o", "my.toml", "--format", "svg", words="my.toml: it is the style, and would be destroyed"
+    )
+    refused(*STYLED, *more, "-o", "sub/../my.toml", "--format", "pdf", words="it is the style, and would be destroyed")
+    (tmp_path / "b.svg").symlink_to(tmp_path / "my.toml")
+    refused(*STYLED, *more, "-o", "b.svg", words="it is the style, and would be destroyed")
+
+
+def test_a_style_by_name_is_no_file(hlr_real, tmp_path):
+    (tmp_path / "a.stl").write_bytes(BOX.export(file_type="stl"))
+    (tmp_path / "thin").write_text("an earlier drawing")
+    assert hlr_real("draw", "a.stl", "--style", "thin", "-o", "thin", "--format", "svg").code == 0
+    assert (tmp_path / "thin").read_text().startswith("<?xml")
+
+
+@pytest.mark.parametrize("side", ["a.svg", "b.svg"])
+def test_either_side_of_a_comparison(refused, hlr_real, tmp_path, side):
+    (tmp_path / "c.stl").write_bytes(BOX.export(file_type="stl"))
+    for name in ("a.svg", "b.svg"):
+        assert hlr_real("draw", "c.stl", "-o", name).code == 0
+    refused("compare", "a.svg", "b.svg", "-o", "x.json", "-o", side, words="it is the source, and would be destroyed")
+
+
+def test_all_that_a_command_reads_is_in_one_table():
+    """An option that names a file is known as one that is read, or as one that is written."""
+    commands = {name: command.get_command(None, name) for name in VERBS}
+    files = {
+        parameter.name
+        for each in commands.values()
+        for parameter in each.params
+        if parameter.param_type_name == "argument" or re.search("FILE|FOLDER|DIR|PATH", parameter.metavar or "")
+    }
+    of_batches = {"sources", "baseline"}
+    assert files == {*READ, *of_batches, "output", "outputs", "depth", "ids"}
 
 
 def test_in_python(tmp_path):
