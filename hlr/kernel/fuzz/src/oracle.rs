@@ -40,6 +40,12 @@ pub fn area([p, q, r]: [Point; 3]) -> i128 {
     u[0] * v[1] - u[1] * v[0]
 }
 
+/// Across the triangle; its z is twice the signed area of the image.
+pub fn normal([p, q, r]: [Point; 3]) -> [i128; 3] {
+    let (u, v) = (minus(q, p), minus(r, p));
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+}
+
 /// What one triangle hides of a segment.
 #[derive(Clone, Copy, Debug)]
 pub struct Shadow {
@@ -63,9 +69,8 @@ pub fn shadow(a: Point, b: Point, [p, q, r]: [Point; 3], delta: i64) -> Option<S
         let (w, v) = (minus(t, s), minus(a, s));
         conditions[k] = (w[0] * v[1] - w[1] * v[0], w[0] * run[1] - w[1] * run[0], [0, -w[1], w[0]]);
     }
-    let (u, v) = (minus(q, p), minus(r, p));
     // Its z is the area, so it grows away from the viewer.
-    let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    let n = normal([p, q, r]);
     let dot = |w: [i128; 3]| n[0] * w[0] + n[1] * w[1] + n[2] * w[2];
     conditions[3] = (dot(minus(a, p)) - n[2] * i128::from(delta), dot(run), [-n[2], n[0], n[1]]);
 

@@ -16,6 +16,9 @@ use super::scene::Scene;
 /// Parameters are quotients of integers, rounded in two or three places.
 const ROUNDING: f64 = 1e-13;
 
+/// Radians to the line of sight, up to which a triangle counts as edge-on.
+const EDGE_ON: f64 = 2e-5;
+
 pub fn run(data: &[u8]) {
     check(&Scene::read(&mut Bytes::new(data)));
 }
@@ -148,7 +151,19 @@ fn drawn(mesh: &Mesh, e: usize, counted: &dyn Fn(usize) -> bool) -> bool {
             .map_or(0, |&v| oracle::area([a, b, v].map(|v| mesh.points[v as usize])).signum());
         if counted(t as usize) { apex } else { 0 }
     };
-    mesh.incident(e).iter().map(side).sum::<i128>() != 0
+    mesh.incident(e).iter().map(side).sum::<i128>() != 0 || beside_strip(mesh, e)
+}
+
+/// So are the borders of a strip that is edge-on but for the rounding of its file: between two triangles that face the
+/// same way, only one of which is such a strip.
+fn beside_strip(mesh: &Mesh, e: usize) -> bool {
+    let &[s, t] = mesh.incident(e) else { return false };
+    let corners = |t: i32| mesh.triangles[t as usize].map(|v| mesh.points[v as usize]);
+    let strip = |t: i32| {
+        let [x, y, z] = oracle::normal(corners(t)).map(|c| c as f64);
+        z.abs() <= EDGE_ON * x.hypot(y)
+    };
+    strip(s) != strip(t) && oracle::area(corners(s)).signum() == oracle::area(corners(t)).signum()
 }
 
 /// How far an edge is moved before it is compared with a group.
