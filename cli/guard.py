@@ -207,10 +207,14 @@ def orphaned() -> bool:
     return _Worker.parent is not None and os.getppid() != _Worker.parent and not hang_up_ignored()
 
 
-def end_when_orphaned() -> None:
-    """Start a thread that ends a command without a worker once it is orphaned; a file being written is completed."""
+def without_worker() -> None:
+    """Go on in this process, for a command whose work is done by processes of its own.
+
+    Once it is orphaned, a thread ends it; a file being written is completed.
+    """
     if _Worker.parent is None:
         return
+    claim()
 
     def watch() -> None:
         while not orphaned():

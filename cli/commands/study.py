@@ -10,7 +10,7 @@ import click
 from hlr.errors import OptionError, SourceError
 from hlr.tables.sheets import papers
 
-from ..guard import end_when_orphaned
+from ..guard import without_worker
 from ..meter import meter
 from ..outputs import Target, in_folder, place
 from ..parameters import Number, Scale, Size, ViewName, Whole
@@ -106,8 +106,8 @@ def study(  # noqa: PLR0913 - one for each option of the command
         reached=reached,
     )
     found = Study(source, view, limit, runs)
-    # Without a worker process: each point runs in a process of its own, and this one writes the result after Ctrl-C.
-    end_when_orphaned()
+    # Each point runs in a process of its own, and this one writes the result after Ctrl-C.
+    without_worker()
     with tidily():
         try:
             with meter(quiet) as progress:
