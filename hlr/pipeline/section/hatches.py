@@ -13,7 +13,7 @@ from hlr.drawing.line import Line
 from hlr.drawing.section import Section
 from hlr.linework.cut_faces import CutFace, cut_faces, level_faces
 from hlr.linework.hatch_strokes import uncovered
-from hlr.linework.hatching import hatched, patterns_of, sides_of
+from hlr.linework.hatching import Pattern, hatched, patterns_of, sides_of
 from hlr.linework.joints import covered, is_covered, joint_borders
 from hlr.pipeline.section.jogs import without_jogs
 from hlr.pipeline.section.plane import Plane, Planes
@@ -41,59 +41,113 @@ class _Hatched:
     level: float
     cover: list[Floats] | None = None
 
+    @property
+    def is_joint(self) -> bool:
+        """Whether it lay in the plane before, and another part rests on it."""
+        return self.cover is not None
+
 
 def with_hatches(drawing: Drawing, session: Session, planes: Planes, cut: CutSource, whole: Source) -> Drawing:
     """A drawing of what planes leave, with its cut faces hatched. session: that has drawn it; whole: the source."""
-    paper, every = _Paper(drawing), list[_Hatched]()
-    beside = list(_beside(session.parts, planes))
-    for plane, own in beside:
-        every += _cut_faces(own, plane, cut, paper)
-    for plane, own in beside:
-        every += _joints(session, own, plane, cut, paper, whole)
-    by_part: dict[str, list[Floats]] = {}
-    for each in every:
-        by_part.setdefault(cut.whose[each.face.part], []).extend(each.loops)
-    patterns = patterns_of(by_part, _shorter_side(drawing))
-    number = {part.name: k for k, part in enumerate(drawing.parts)}
-    before = _before(session, planes, cut, paper)
-    shortest = drawing.accuracy.used
-    # Where parts overlap, a face that is cut lies over joints.
-    over = [sides_of(each.loops) for each in every if each.cover is None]
-    over = over if before is None else [*over, before]
-    hatches: list[Line] = []
-    rims: list[Line] = []
-    parts: set[int] = set()
-    for each in every:
-        face, part, hiding, level = each.face, number[each.face.part], before, each.level
-        strokes = hatched(each.loops, patterns[cut.whose[face.part]], shortest)
-        borders = [paper.on(face.points[rim]) for rim in face.rims]
-        if each.cover is not None:
-            strokes = covered(strokes, sides_of(each.cover))
-            borders = joint_borders(each.loops, each.cover, shortest)
-            hiding = np.concatenate(over) if over else None
-        strokes = strokes if hiding is None else uncovered(strokes, hiding)
-        if each.cover is not None:
-            strokes = strokes[np.hypot(*(strokes[:, 1] - strokes[:, 0]).T) >= shortest]
-        if each.cover is None or len(strokes):
-            parts.add(part)
-        hatches += [
-            Line("hatch", True, part, None, face.number, stroke, paper.behind(stroke, level)) for stroke in strokes
-        ]
-        for border in borders:
-            rims += _rim(border, part, paper, hiding, level)
+    paper = _Paper(drawing)
+    faces = _hatched_faces(session, planes, cut, paper, whole)
+    hatches, rims = _lines(drawing, faces, cut, paper, _before(session, planes, cut, paper))
+    parts = _parts_of(drawing, faces, hatches)
     if planes.steps:
-        drawing = without_jogs(drawing, planes, [(cut.whose[each.face.part], each.loops) for each in every], cut.whose)
+        drawing = without_jogs(drawing, planes, [(cut.whose[each.face.part], each.loops) for each in faces], cut.whose)
     if drawing.window is not None:
         frame = Frame(drawing.view, drawing.scale * drawing.unit, drawing.window)
         hatches, rims = list(cut_lines(hatches, frame)[0]), list(cut_lines(rims, frame)[0])
-    section = Section(planes.first.point, planes.normal, tuple(sorted(parts)), planes.corners())
+    section = Section(planes.first.point, planes.normal, parts, planes.corners())
+    return replace(_with_lines(drawing, rims, hatches), section=section)
+
+
+def _parts_of(drawing: Drawing, faces: Sequence[_Hatched], hatches: Sequence[Line]) -> tuple[int, ...]:
+    """The numbers of the parts that a section shows cut: those with cut faces, and those with a joint that is seen."""
+    number = _part_numbers(drawing)
+    cut = {number[each.face.part] for each in faces if not each.is_joint}
+    return tuple(sorted(cut | {line.part for line in hatches}))
+
+
+def _with_lines(drawing: Drawing, rims: list[Line], hatches: list[Line]) -> Drawing:
+    """The drawing with these lines after its own, and with their counts."""
     counters = {
         **drawing.counters,
         "lines": drawing.counters.get("lines", 0) + len(rims) + len(hatches),
         "hatch_lines": len(hatches),
     }
     lines = (*drawing.lines, *rims, *hatches) if rims or hatches else drawing.lines
-    return replace(drawing, lines=lines, section=section, counters=counters)
+    return replace(drawing, lines=lines, counters=counters)
+
+
+def _hatched_faces(session: Session, planes: Planes, cut: CutSource, paper: _Paper, whole: Source) -> list[_Hatched]:
+    """All faces to be hatched: first those that the planes have cut, then joints."""
+    beside = list(_beside(session.parts, planes))
+    cut_ones = [face for plane, own in beside for face in _cut_faces(own, plane, cut, paper)]
+    joints = [face for plane, own in beside for face in _joints(session, own, plane, cut, paper, whole)]
+    return [*cut_ones, *joints]
+
+
+def _lines(
+    drawing: Drawing, faces: Sequence[_Hatched], cut: CutSource, paper: _Paper, before: Floats | None
+) -> tuple[list[Line], list[Line]]:
+    """The strokes of all hatches, and the borders of hatches at which no edge is.
+
+    before (k, 2, 2): borders, on paper, of what lies before the planes
+    """
+    shortest, number, patterns = drawing.accuracy.used, _part_numbers(drawing), _patterns(drawing, faces, cut)
+    over_joints = _over_joints(faces, before)
+    hatches: list[Line] = []
+    rims: list[Line] = []
+    for each in faces:
+        part, hiding = number[each.face.part], over_joints if each.is_joint else before
+        for stroke in _strokes(each, patterns[cut.whose[each.face.part]], hiding, shortest):
+            hatches.append(Line("hatch", True, part, None, each.face.number, stroke, paper.behind(stroke, each.level)))
+        for border in _borders(each, paper, shortest):
+            rims += _rim(border, part, paper, hiding, each.level)
+    return hatches, rims
+
+
+def _part_numbers(drawing: Drawing) -> dict[str, int]:
+    """The number of each part of a drawing, by its name."""
+    return {part.name: k for k, part in enumerate(drawing.parts)}
+
+
+def _patterns(drawing: Drawing, faces: Sequence[_Hatched], cut: CutSource) -> dict[str, Pattern]:
+    """The pattern of each part of the whole model that has hatched faces, by its name."""
+    by_part: dict[str, list[Floats]] = {}
+    for each in faces:
+        by_part.setdefault(cut.whose[each.face.part], []).extend(each.loops)
+    return patterns_of(by_part, _shorter_side(drawing))
+
+
+def _over_joints(faces: Sequence[_Hatched], before: Floats | None) -> Floats | None:
+    """(k, 2, 2) the borders, on paper, of what hides joints: where parts overlap, a face that is cut does, too."""
+    over = [sides_of(each.loops) for each in faces if not each.is_joint]
+    over = over if before is None else [*over, before]
+    return np.concatenate(over) if over else None
+
+
+def _strokes(face: _Hatched, pattern: Pattern, hiding: Floats | None, shortest: float) -> Floats:
+    """(k, 2, 2) the strokes of a face on paper, as far as they are seen.
+
+    hiding (k, 2, 2): borders of what hides it; None: nothing does; shortest: millimetres, of a stroke
+    """
+    strokes = hatched(face.loops, pattern, shortest)
+    if face.cover is not None:
+        strokes = covered(strokes, sides_of(face.cover))
+    if hiding is not None:
+        strokes = uncovered(strokes, hiding)
+    if face.is_joint:
+        strokes = strokes[np.hypot(*(strokes[:, 1] - strokes[:, 0]).T) >= shortest]
+    return strokes
+
+
+def _borders(face: _Hatched, paper: _Paper, shortest: float) -> list[Floats]:
+    """Borders (n, 2) of a hatch, on paper, at which no edge is. shortest: millimetres, of a border of a joint."""
+    if face.cover is not None:
+        return joint_borders(face.loops, face.cover, shortest)
+    return [paper.on(face.face.points[rim]) for rim in face.face.rims]
 
 
 def _beside(parts: Sequence[PartMesh], planes: Planes) -> Iterator[tuple[Plane, list[PartMesh]]]:

@@ -13,7 +13,7 @@ from hlr.errors import OptionError, SourceError
 from hlr.pipeline.section.plane import Planes
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.half_space import UncuttableError
-from hlr.source.cad.parts import Part
+from hlr.source.cad.parts import Leaf, Part
 from hlr.source.mesh.mesh_source import MeshSource
 from hlr.source.model import Source
 
@@ -86,56 +86,85 @@ def _corners(box: Floats) -> Floats:
     return np.array([[box[i][0], box[j][1], box[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
 
 
+@dataclass(slots=True)
+class _Left:
+    """What planes leave of a B-rep.
+
+    leaves  shapes in their places, with the names of their parts
+    cut     names of the parts that are cut
+    failed  why those stay whole, by name, that OpenCASCADE cannot cut
+    """
+
+    leaves: list[Leaf] = field(default_factory=list)
+    cut: set[str] = field(default_factory=set)
+    failed: dict[str, UncuttableError] = field(default_factory=dict)
+
+
 def _cut_brep(source: BrepSource, planes: Planes, whole: list[str], crossed: list[str]) -> CutSource | None:
+    """The B-rep without what lies before the planes; None: nothing is left.
+
+    Raises UncuttableError where parts are to be cut, and none can be.
+    """
+    left = _left_of(source, planes, set(whole), set(crossed))
+    if left.failed and not left.cut:
+        raise next(iter(left.failed.values()))
+    if not left.leaves:
+        return None
+    built = _rebuilt(source, left)
+    whose = {part.name: part.product for part in built.parts}
+    return CutSource(built, whose, frozenset(left.cut), failed=left.failed)
+
+
+def _left_of(source: BrepSource, planes: Planes, whole: set[str], crossed: set[str]) -> _Left:
+    """What planes leave of a B-rep; parts of other names lie before them."""
     from hlr.source.cad.occt_import import load_occt
-    from hlr.source.cad.parts import Leaf
-    from hlr.source.cad.source_builder import build_source, with_appearance
-    from hlr.source.model import Appearance
 
     load_occt()
+    cutter, left = _PrototypeCutter(source, planes), _Left()
+    for part in source.parts:
+        if part.name not in whole and part.name not in crossed:
+            continue
+        shape = source.prototypes.shapes[part.prototype]
+        if part.name in crossed:
+            found = cutter.left_of(part)
+            if isinstance(found, UncuttableError):
+                left.failed[part.name] = found.of(part.name)
+            else:
+                shape, is_cut = found
+                left.cut |= {part.name} if is_cut else set()
+        if shape is not None:
+            left.leaves.append(_placed(shape, part))
+    return left
+
+
+def _placed(shape: Any, part: Part) -> Leaf:
+    """A shape of a part, or what is left of it, in the part's place."""
     from OCP.gp import gp_Trsf
     from OCP.TopLoc import TopLoc_Location
 
-    shapes, looks = source.prototypes.shapes, source.appearances()
-    cutter = _PrototypeCutter(source, planes)
-    leaves, cut = [], set()
-    failed: dict[str, UncuttableError] = {}
-    kept, through = set(whole), set(crossed)
-    for part in source.parts:
-        if part.name not in kept and part.name not in through:
-            continue
-        move = gp_Trsf()
-        move.SetValues(*(float(value) for value in part.transform[:3].ravel()))
-        shape = shapes[part.prototype]
-        if part.name in through:
-            found = cutter.left_of(part)
-            if isinstance(found, UncuttableError):
-                failed[part.name] = found.of(part.name)
-            else:
-                shape, is_cut = found
-                cut |= {part.name} if is_cut else set()
-        if shape is not None:
-            leaves.append(Leaf(shape.Moved(TopLoc_Location(move), False), part.name, part.color, above=part.above))
-    if failed and not cut:
-        raise next(iter(failed.values()))
-    if not leaves:
-        return None
-    made = build_source(source.name, source.kind, leaves, source.notes)
-    # Pieces of a part that was cut have one colour: their faces are not those of the part.
-    of = {part.name: part for part in source.parts}
+    move = gp_Trsf()
+    move.SetValues(*(float(value) for value in part.transform[:3].ravel()))
+    return Leaf(shape.Moved(TopLoc_Location(move), False), part.name, part.color, above=part.above)
+
+
+def _rebuilt(source: BrepSource, left: _Left) -> BrepSource:
+    """A source of what is left, which looks as before.
+
+    Pieces of a part that was cut have one colour: their faces are not those of the part.
+    """
+    from hlr.source.cad.source_builder import build_source, with_appearance
+    from hlr.source.model import Appearance
+
+    made = build_source(source.name, source.kind, left.leaves, source.notes)
+    looks, of = source.appearances(), {part.name: part for part in source.parts}
     parts = []
     for part in made.parts:
         look = looks[part.product]
-        parts.append(
-            replace(
-                with_appearance(part, Appearance(look.whole) if part.product in cut else look),
-                transparent=of[part.product].transparent,
-            )
-        )
-    whose = {part.name: part.product for part in parts}
+        shown = with_appearance(part, Appearance(look.whole) if part.product in left.cut else look)
+        parts.append(replace(shown, transparent=of[part.product].transparent))
     built = BrepSource(source.name, source.kind, parts, made.prototypes, made.notes)
     built.choice, built.reading = source.choice, source.reading
-    return CutSource(built, whose, frozenset(cut), failed=failed)
+    return built
 
 
 class _PrototypeCutter:
@@ -158,7 +187,6 @@ class _PrototypeCutter:
         """
         from hlr.source.cad.closing import as_solid
         from hlr.source.cad.half_space import cut_at, cut_away
-        from hlr.source.cad.parts import Leaf
 
         planes = self._planes.before(part.transform)
         ends = np.concatenate([planes.levels, planes.steps]) / self._size

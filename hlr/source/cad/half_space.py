@@ -68,8 +68,7 @@ def cut_at(leaves: Sequence[Leaf], planes: Stepped, origin: Floats) -> list[Leaf
 
 def _cut(shape: Any, planes: Stepped, origin: Floats, name: str) -> Any | None:
     """A shape without what lies beyond the planes; None where that is all of it."""
-    normal, steps = planes.normal, len(planes.steps) > 0
-    box = _box(shape, origin, normal)
+    box = _box(shape, origin, planes.normal)
     if box is None:
         return None
     size = float(np.linalg.norm(box[1] - box[0]))
@@ -82,9 +81,20 @@ def _cut(shape: Any, planes: Stepped, origin: Floats, name: str) -> Any | None:
     if not has_surfaces(shape):
         why = "its faces are triangles without surfaces"
         raise UncuttableError(name, why, "export it as a solid or as a mesh")
-    middle = 0.5 * (box[0] + box[1])
-    block = _prism(planes, origin, middle, size) if steps else _block(origin, normal, middle, 2.0 * size)
     check = CutCheck(shape, planes, size)
+    left = _cut_by_block(shape, _before(planes, origin, box, size), check, size)
+    if left is _FAILED and not len(planes.steps):
+        left = _cut_by_half_space(shape, _half_space(origin, planes.normal, 2.0 * size), check)
+    if left is _FAILED:
+        raise UncuttableError(name, "its shape is not sound", "move the plane a little")
+    return left
+
+
+def _cut_by_block(shape: Any, block: Any, check: CutCheck, size: float) -> Any | None:
+    """The shape minus a block: the first cut that is sound, else the tightest that is cut as it should; or `_FAILED`.
+
+    size: of the shape
+    """
     found: list[Any | None] = []
     for share in (0.0, *LOOSER):
         left = _without(shape, block, share * size)
@@ -93,13 +103,14 @@ def _cut(shape: Any, planes: Stepped, origin: Floats, name: str) -> Any | None:
         if check.is_sound(left):
             return left
         found.append(left)
-    if not found and not steps:
-        left = _without(shape, _half_space(origin, normal, 2.0 * size), 0.0)
-        if left is not _FAILED and check.is_cut(left, left is shape) and check.is_piece(left):
-            return left
-    if not found:
-        raise UncuttableError(name, "its shape is not sound", "move the plane a little")
-    return found[0]
+    return found[0] if found else _FAILED
+
+
+def _cut_by_half_space(shape: Any, half_space: Any, check: CutCheck) -> Any | None:
+    """The shape minus all that lies beyond a plane, if that leaves a piece of it; else `_FAILED`."""
+    left = _without(shape, half_space, 0.0)
+    is_piece = left is not _FAILED and check.is_cut(left, left is shape) and check.is_piece(left)
+    return left if is_piece else _FAILED
 
 
 def _box(shape: Any, origin: Floats, normal: Floats) -> Floats | None:
@@ -121,6 +132,14 @@ def _across(axes: Any) -> tuple[Floats, Floats]:
     """The first and the second direction of axes, (3,) each."""
     x, y = (np.array([way.X(), way.Y(), way.Z()]) for way in (axes.XDirection(), axes.YDirection()))
     return x, y
+
+
+def _before(planes: Stepped, origin: Floats, box: Floats, size: float) -> Any:
+    """What lies before the planes, as far as a shape with this box of `_box` reaches; size: of the shape."""
+    middle = 0.5 * (box[0] + box[1])
+    if len(planes.steps):
+        return _prism(planes, origin, middle, size)
+    return _block(origin, planes.normal, middle, 2.0 * size)
 
 
 def _block(origin: Floats, normal: Floats, middle: Floats, size: float) -> Any:
