@@ -60,9 +60,8 @@ class MeshingFaults:
             what = f"{have} an outline or a hole that runs the wrong way round"
             notes.append(Note("loops-turned", f"{of.format(len(turned))} {what} ({_listed(turned)})."))
         if torn:
-            has = (
-                "has a surface that folds over itself or jumps" if len(torn) == 1 else "have surfaces that fold or jump"
-            )
+            one = len(torn) == 1
+            has = "has a surface that folds over itself or jumps" if one else "have surfaces that fold or jump"
             far = typed(max(self.torn[number] for number in set(face_shape[torn].tolist())), 2)
             what = f"{has}, and may be {far} mm off there"
             notes.append(Note("surfaces-torn", f"{of.format(len(torn))} {what} ({_listed(torn)})."))
