@@ -114,6 +114,12 @@ def test_a_mesher_that_fails_on_one_part(monkeypatch):
         def turned(self):
             return []
 
+        def torn(self):
+            return []
+
+        def fill(self, *given):
+            return False
+
         def off_their_edges(self, most):
             return []
 

@@ -161,7 +161,7 @@ fn beside_strip(mesh: &Mesh, e: usize) -> bool {
     let corners = |t: i32| mesh.triangles[t as usize].map(|v| mesh.points[v as usize]);
     let strip = |t: i32| {
         let [x, y, z] = oracle::normal(corners(t)).map(|c| c as f64);
-        z.abs() <= EDGE_ON * x.hypot(y)
+        z.abs() <= EDGE_ON * (x * x + y * y).sqrt()
     };
     strip(s) != strip(t) && oracle::area(corners(s)).signum() == oracle::area(corners(t)).signum()
 }

@@ -30,44 +30,47 @@ struct Place {
     normal: Vector,
 }
 
-pub fn point(basis: &Surface, distance: f64, uv: [f64; 2]) -> Vector {
-    let (point, du, dv) = basis.d1(uv);
-    match upright(&du, &dv) {
-        Some(normal) => along(&point, &normal, distance),
-        None => d1(basis, distance, uv).0,
-    }
-}
-
-/// Point and first derivatives.
-pub fn d1(basis: &Surface, distance: f64, uv: [f64; 2]) -> (Vector, Vector, Vector) {
-    let place = place(&basis.jet(uv), basis, distance, uv);
-    (place.point, place.du, place.dv)
-}
-
-/// All derivatives; the second ones by differences of the first ones on both sides.
-pub fn jet(basis: &Surface, distance: f64, uv: [f64; 2]) -> Jet {
-    let own = basis.jet(uv);
-    let here = place(&own, basis, distance, uv);
-    let domain = basis.domain(1.0);
-    let between = |side: usize, derivative: &Vector| {
-        let [low, high] = domain[side];
-        let step = STEP * (distance.abs().max(1e-12) / length(derivative).max(1e-12)).min(high - low);
-        let beside = |steps: f64| {
-            let mut uv = uv;
-            uv[side] += steps * step;
-            place(&basis.jet(uv), basis, distance, uv)
-        };
-        let [mut before, mut after] = [beside(-1.0), beside(1.0)];
-        if dot(&before.normal, &after.normal) < 0.0 {
-            // Both on the same side of a pole, and neither at it.
-            let inward = 1.5 * (f64::midpoint(low, high) - uv[side]).signum();
-            [before, after] = [beside(inward - 1.0), beside(inward + 1.0)];
+impl Surface {
+    /// The point at a distance from `basis`.
+    pub fn offset_point(basis: &Surface, distance: f64, uv: [f64; 2]) -> Vector {
+        let (point, du, dv) = basis.d1(uv);
+        match upright(&du, &dv) {
+            Some(normal) => along(&point, &normal, distance),
+            None => Self::offset_d1(basis, distance, uv).0,
         }
-        let change = |of: fn(&Place) -> &Vector| scaled(&sub(of(&after), of(&before)), 0.5 / step);
-        [change(|p| &p.du), change(|p| &p.dv)]
-    };
-    let ([duu, duv], [_, dvv]) = (between(0, &own.du), between(1, &own.dv));
-    Jet { point: here.point, du: here.du, dv: here.dv, duu, duv, dvv }
+    }
+
+    /// Point and first derivatives.
+    pub fn offset_d1(basis: &Surface, distance: f64, uv: [f64; 2]) -> (Vector, Vector, Vector) {
+        let place = place(&basis.jet(uv), basis, distance, uv);
+        (place.point, place.du, place.dv)
+    }
+
+    /// All derivatives; the second ones by differences of the first ones on both sides.
+    pub fn offset_jet(basis: &Surface, distance: f64, uv: [f64; 2]) -> Jet {
+        let own = basis.jet(uv);
+        let here = place(&own, basis, distance, uv);
+        let domain = basis.domain(1.0);
+        let between = |side: usize, derivative: &Vector| {
+            let [low, high] = domain[side];
+            let step = STEP * (distance.abs().max(1e-12) / length(derivative).max(1e-12)).min(high - low);
+            let beside = |steps: f64| {
+                let mut uv = uv;
+                uv[side] += steps * step;
+                place(&basis.jet(uv), basis, distance, uv)
+            };
+            let [mut before, mut after] = [beside(-1.0), beside(1.0)];
+            if dot(&before.normal, &after.normal) < 0.0 {
+                // Both on the same side of a pole, and neither at it.
+                let inward = 1.5 * (f64::midpoint(low, high) - uv[side]).signum();
+                [before, after] = [beside(inward - 1.0), beside(inward + 1.0)];
+            }
+            let change = |of: fn(&Place) -> &Vector| scaled(&sub(of(&after), of(&before)), 0.5 / step);
+            [change(|p| &p.du), change(|p| &p.dv)]
+        };
+        let ([duu, duv], [_, dvv]) = (between(0, &own.du), between(1, &own.dv));
+        Jet { point: here.point, du: here.du, dv: here.dv, duu, duv, dvv }
+    }
 }
 
 /// By Weingarten's equations, from the basis at `uv`.

@@ -16,7 +16,6 @@ use std::f64::consts::TAU;
 
 use super::curve::Curve;
 use super::jet::upright;
-use super::offset_surface;
 use super::spline_surface::SplineSurface;
 use super::vector::{Vector, add, along, cross, dot, scaled, sub, unit};
 
@@ -109,14 +108,14 @@ impl Surface {
                 (along(&p, way, v), d, *way)
             }
             Surface::Spline(s) => s.d1(u, v),
-            Surface::Offset(basis, distance) => offset_surface::d1(basis, *distance, [u, v]),
+            Surface::Offset(basis, distance) => Surface::offset_d1(basis, *distance, [u, v]),
         }
     }
 
     pub fn point(&self, uv: [f64; 2]) -> Vector {
         match self {
             Surface::Spline(s) => s.point(uv[0], uv[1]),
-            Surface::Offset(basis, distance) => offset_surface::point(basis, *distance, uv),
+            Surface::Offset(basis, distance) => Surface::offset_point(basis, *distance, uv),
             _ => self.d1(uv).0,
         }
     }

@@ -2,7 +2,6 @@
 
 use super::curve::Curve;
 use super::jet::Jet;
-use super::offset_surface;
 use super::surface::{Frame, Surface};
 use super::vector::{Vector, add, along, cross, dot, scaled, sub};
 use hlr_exact::elementary::sin_cos;
@@ -52,7 +51,7 @@ impl Surface {
                 Jet { point: along(&p, way, v), du, dv: *way, duu, duv: zero, dvv: zero }
             }
             Surface::Spline(s) => s.jet(u, v),
-            Surface::Offset(basis, distance) => offset_surface::jet(basis, *distance, uv),
+            Surface::Offset(basis, distance) => Surface::offset_jet(basis, *distance, uv),
         }
     }
 
