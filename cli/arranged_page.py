@@ -6,14 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hlr.errors import OptionError
 from hlr.tables.projection_methods import PROJECTION_METHODS
 
 from .document_pages import without_template
 from .drawn_files import targets_of, write
 from .guard import start
 from .meter import meter
-from .parameters import FieldText, Window
+from .parameters import FieldText, Window, as_table
 from .streams import result_only
 from .telling import summary, tell_notes, tell_written, written
 
@@ -42,6 +41,7 @@ ARRANGE = (
         type=FieldText(),
         metavar="FIELD=TEXT",
         multiple=True,
+        callback=as_table(),
         help="--template: the text for one of its fields; may be repeated. The scale is filled in.",
     ),
     click.option(
@@ -70,17 +70,13 @@ def draw_arranged_page(
 
     Raises OptionError where other options contradict the page; else as `hlr.draw_arranged`.
     """
-    keys = [key for key, _ in printed["texts"]]
-    if len(set(keys)) < len(keys):
-        raise OptionError(f"--text gives {max(keys, key=keys.count)} twice: give it once")
-    on_page = {**printed, "texts": dict(printed["texts"])}
     targets = targets_of(outputs, source, [method], format, told["as_json"])
     start(source, told["time_limit"])
     with result_only() as out:
         with meter(told["quiet"]) as progress:
             import hlr
 
-            drawing = hlr.draw_arranged(source, method, list(views) or None, request, progress, **on_page)
+            drawing = hlr.draw_arranged(source, method, list(views) or None, request, progress, **printed)
         tell_notes([*without_template([drawing], targets), *drawing.notes], request.strict, told["quiet"])
         (drawing,) = write([drawing], targets, out.put)
         if told["as_json"]:

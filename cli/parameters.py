@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import click
 
 from hlr.common.numbers import typed
+from hlr.errors import OptionError
 from hlr.tables.sheets import papers
 
 if TYPE_CHECKING:
@@ -162,6 +164,24 @@ class FieldText(click.ParamType[tuple[str, str]]):
         if not equals or not key.strip():
             self.fail(f"{value!r} is not a field and a text such as TITLE=Bracket", param, ctx)
         return key.strip(), text
+
+
+def as_table(cure: str = "give it once") -> Callable[..., dict[str, Any] | None]:
+    """A callback for an option that may be repeated, each time with a name: the values by name; None: there are none.
+
+    It raises OptionError where a name is given twice; cure: what the message says then.
+    """
+
+    def table(
+        _ctx: click.Context, option: click.Parameter, given: tuple[tuple[str, Any], ...]
+    ) -> dict[str, Any] | None:
+        names = [name for name, _ in given]
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise OptionError(f"{option.opts[0]} gives {twice} twice: {cure}")
+        return dict(given) or None
+
+    return table
 
 
 @dataclass(frozen=True)

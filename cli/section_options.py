@@ -8,19 +8,12 @@ import click
 
 from hlr.errors import OptionError
 
-from .parameters import SectionPlane
+from .parameters import SectionPlane, as_table
 
 if TYPE_CHECKING:
     from hlr.request.options import View
 
     from .parameters import Vector3
-
-
-def _as_table(_ctx: click.Context, _parameter: click.Parameter, given: tuple[tuple[str, Any], ...]) -> dict[str, Any]:
-    names = [name for name, _ in given]
-    if twice := next((name for name in names if names.count(name) > 1), None):
-        raise OptionError(f"--section gives {twice} twice: a view is cut once")
-    return dict(given)
 
 
 SECTION = (
@@ -29,7 +22,7 @@ SECTION = (
         type=SectionPlane(),
         metavar="VIEW[@PLACE]",
         multiple=True,
-        callback=_as_table,
+        callback=as_table("a view is cut once"),
         help="Draw this view as a section: what lies before a plane across it is taken away, and cut faces are "
         "hatched. front: through the middle of the model; front@12.5: at this coordinate, in millimetres, on the axis "
         "that the view looks along; front@0,12.5,0: through this point. May be repeated.",
@@ -43,7 +36,7 @@ SECTION = (
 )
 
 
-def with_sections(views: tuple[View, ...], sections: dict[str, Any], eye: Vector3 | None) -> tuple[View, ...]:
+def with_sections(views: tuple[View, ...], sections: dict[str, Any] | None, eye: Vector3 | None) -> tuple[View, ...]:
     """The views that were asked for, and those that are cut. Raises OptionError where one is seen from an eye."""
     if not sections:
         return views

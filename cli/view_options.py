@@ -11,7 +11,19 @@ from hlr.errors import OptionError
 from hlr.request.concerns import OF_SOURCES
 from hlr.request.directions import EYE, NAMED
 
-from .parameters import Duration, Number, Scale, ScriptParameter, Size, Vector, Vector3, ViewName, Whole, Window
+from .parameters import (
+    Duration,
+    Number,
+    Scale,
+    ScriptParameter,
+    Size,
+    Vector,
+    Vector3,
+    ViewName,
+    Whole,
+    Window,
+    as_table,
+)
 
 if TYPE_CHECKING:
     from hlr.request.options import Perspective, View
@@ -86,22 +98,13 @@ NO_CACHE = click.option(
 )
 
 
-def _as_table(
-    _ctx: click.Context, _parameter: click.Parameter, given: tuple[tuple[str, Any], ...]
-) -> dict[str, Any] | None:
-    names = [name for name, _ in given]
-    if twice := next((name for name in names if names.count(name) > 1), None):
-        raise OptionError(f"--param gives {twice} twice: give it once")
-    return dict(given) or None
-
-
 PARAMETERS = click.option(
     "--param",
     "parameters",
     type=ScriptParameter(),
     metavar="NAME=VALUE",
     multiple=True,
-    callback=_as_table,
+    callback=as_table(),
     help="Scripts: set a variable that the script sets to a plain value. May be repeated.",
 )
 

@@ -139,7 +139,6 @@ def draw(
     printed = {name: chosen.pop(name) for name in ("template", "texts", "room")}
     time_limit = chosen.pop("time_limit")
     sections = chosen["section"]
-    chosen["section"] = sections or None
     told = {"as_json": as_json, "quiet": quiet, "time_limit": time_limit}
     if arrange is not None:
         if views:

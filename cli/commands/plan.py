@@ -40,7 +40,6 @@ def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **
     """
     time_limit = chosen.pop("time_limit")
     views = with_sections(views, chosen["section"], chosen["eye"])
-    chosen["section"] = chosen["section"] or None
     names_of(views, chosen["eye"])
     if names_a_page(source, page := chosen["page"]):
         raise OptionError(f"{page} is no sheet, and pages of a document have no plan: hlr draw draws them")

@@ -82,21 +82,25 @@ fn a_fillet_strip_of_a_torus() {
     meshed(&torus, &[border], d, 1e9);
 }
 
-/// A bicubic patch with waves.
-pub fn wavy(poles: usize, height: f64, rational: bool) -> Surface {
+/// The data of a bicubic patch with even knots. `pole`: the place of the pole in row i and column j, and its weight.
+fn bicubic(poles: usize, pole: impl Fn(usize, usize) -> [f64; 4]) -> Vec<f64> {
     let mut data = vec![3.0, 3.0, poles as f64, poles as f64, 0.0, 0.0];
     for _ in 0..2 {
         data.extend([0.0; 4]);
         data.extend((1..poles - 3).map(|k| k as f64 / (poles - 3) as f64));
         data.extend([1.0; 4]);
     }
-    for i in 0..poles {
-        for j in 0..poles {
-            let (x, y) = (10.0 * i as f64 / (poles - 1) as f64, 10.0 * j as f64 / (poles - 1) as f64);
-            let w = if rational { 1.0 + 0.3 * ((i * 3 + j * 5) % 4) as f64 } else { 1.0 };
-            data.extend([x, y, height * ((x * 1.1).sin() + (y * 0.7 + x * 0.3).cos()), w]);
-        }
-    }
+    data.extend((0..poles * poles).flat_map(|k| pole(k / poles, k % poles)));
+    data
+}
+
+/// A bicubic patch with waves.
+pub fn wavy(poles: usize, height: f64, rational: bool) -> Surface {
+    let data = bicubic(poles, |i, j| {
+        let (x, y) = (10.0 * i as f64 / (poles - 1) as f64, 10.0 * j as f64 / (poles - 1) as f64);
+        let w = if rational { 1.0 + 0.3 * ((i * 3 + j * 5) % 4) as f64 } else { 1.0 };
+        [x, y, height * ((x * 1.1).sin() + (y * 0.7 + x * 0.3).cos()), w]
+    });
     Surface::read(8, &data).unwrap()
 }
 
@@ -115,20 +119,11 @@ fn a_wavy_patch_with_trimming() {
 #[test]
 fn a_fine_patch_in_a_coarse_face() {
     // Flat except for one bump.
-    let poles = 40;
-    let mut data = vec![3.0, 3.0, poles as f64, poles as f64, 0.0, 0.0];
-    for _ in 0..2 {
-        data.extend([0.0; 4]);
-        data.extend((1..poles - 3).map(|k| k as f64 / (poles - 3) as f64));
-        data.extend([1.0; 4]);
-    }
-    for i in 0..poles {
-        for j in 0..poles {
-            let bump = if (18..21).contains(&i) && (25..28).contains(&j) { 2.0 } else { 0.0 };
-            let slope = 0.002 * (i * i) as f64;
-            data.extend([i as f64, j as f64, bump + slope, 1.0]);
-        }
-    }
+    let data = bicubic(40, |i, j| {
+        let bump = if (18..21).contains(&i) && (25..28).contains(&j) { 2.0 } else { 0.0 };
+        let slope = 0.002 * (i * i) as f64;
+        [i as f64, j as f64, bump + slope, 1.0]
+    });
     let patch = Surface::read(8, &data).unwrap();
     meshed(&patch, &[frame([0.0, 0.0], [1.0, 1.0], 30, 30)], 0.005, 5000.0);
 }
@@ -144,20 +139,11 @@ fn a_bottle_turned_about_an_axis() {
 
 #[test]
 fn an_offset_patch() {
-    let mut data = vec![0.4, 8.0];
-    let poles = 8;
-    data.extend([3.0, 3.0, poles as f64, poles as f64, 0.0, 0.0]);
-    for _ in 0..2 {
-        data.extend([0.0; 4]);
-        data.extend((1..poles - 3).map(|k| k as f64 / (poles - 3) as f64));
-        data.extend([1.0; 4]);
-    }
-    for i in 0..poles {
-        for j in 0..poles {
-            let (x, y) = (i as f64, j as f64);
-            data.extend([x, y, 0.5 * ((x * 0.8).sin() + (y * 0.7).cos()), 1.0]);
-        }
-    }
+    let waves = bicubic(8, |i, j| {
+        let (x, y) = (i as f64, j as f64);
+        [x, y, 0.5 * ((x * 0.8).sin() + (y * 0.7).cos()), 1.0]
+    });
+    let data = [vec![0.4, 8.0], waves].concat();
     let s = Surface::read(9, &data).unwrap();
     meshed(&s, &[frame([0.0, 0.0], [1.0, 1.0], 60, 60)], 0.01, 1e9);
 }
