@@ -66,11 +66,11 @@ def test_nothing_is_left_behind_after_ctrl_c(endless, tmp_path, started):
 
 @pytest.mark.slow
 def test_a_time_limit_holds_for_freecad_as_well(endless, tmp_path):
-    done = subprocess.run([*COMPARE, "--time-limit", "3s"], env=endless, capture_output=True, text=True, check=False)
+    done = subprocess.run([*COMPARE, "--time-limit", "8s"], env=endless, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert re.fullmatch(
-        r"hlr: M6-1x12-countersunk-screw\.step took longer than 3 s and was given up; FreeCAD's own drawing took "
-        r"[123]\.\d s of that: raise --time-limit, or take its coarse view \(--coarse\)\.\n",
+        r"hlr: M6-1x12-countersunk-screw\.step took longer than 8 s and was given up; FreeCAD's own drawing took "
+        r"[1-8]\.\d s of that: raise --time-limit, or take its coarse view \(--coarse\)\.\n",
         done.stderr,
     )
     assert list((tmp_path / "made").iterdir()) == []
