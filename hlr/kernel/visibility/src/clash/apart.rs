@@ -40,11 +40,12 @@ impl Section {
 
     /// Goes on to the next triangle; None where the surface ends, has a sharp edge or turns back.
     fn next(self, sheet: &Sheet, frame: &Frame) -> Option<Section> {
+        let edge = sheet.edge(self.triangle, self.side)?;
         // However little it turns there: a pocket ends at its rim, and what touches it may go on beyond.
-        if sheet.sharp(self.triangle, self.side) {
+        if sheet.sharp(edge) {
             return None;
         }
-        let (triangle, exit) = sheet.onward(self.triangle, self.side, frame.at, &frame.across)?;
+        let (triangle, exit) = sheet.onward(self.triangle, edge, frame.at, &frame.across)?;
         let to = frame.flat(&exit);
         (to[0] > self.to[0]).then_some(Section { triangle, side: exit.side, from: self.to, to })
     }
@@ -55,11 +56,49 @@ impl Section {
     }
 }
 
+/// The way along both surfaces on one side of the crossing.
+struct Side<'a> {
+    frame: Frame<'a>,
+    /// The sections so far; None once they cross again, or one cannot be followed.
+    ahead: Option<[Section; 2]>,
+    /// The greatest distance so far, up or down; infinite where no section can be followed.
+    widest: f64,
+    steps: usize,
+}
+
+impl<'a> Side<'a> {
+    fn new(sheet: &Sheet, frame: Frame<'a>, [a, b]: [u32; 2]) -> Side<'a> {
+        let ahead = Section::begin(sheet, &frame, a).zip(Section::begin(sheet, &frame, b)).map(|(a, b)| [a, b]);
+        let widest = if ahead.is_some() { 0.0 } else { f64::INFINITY };
+        Side { frame, ahead, widest, steps: 0 }
+    }
+
+    /// Goes on to where the next of the two sections leaves its triangle.
+    fn advance(&mut self, sheet: &Sheet) {
+        let Some([a, b]) = self.ahead.take() else { return };
+        let here = a.to[0].min(b.to[0]);
+        let gap = a.height(here) - b.height(here);
+        if gap * self.widest < 0.0 {
+            return;
+        }
+        if gap.abs() > self.widest.abs() {
+            self.widest = gap;
+        }
+        self.steps += 1;
+        if self.steps == STEPS {
+            return;
+        }
+        let (done_a, done_b) = (a.to[0] <= here, b.to[0] <= here);
+        let ahead = |section: Section, done| if done { section.next(sheet, &self.frame) } else { Some(section) };
+        self.ahead = ahead(a, done_a).and_then(|a| Some([a, ahead(b, done_b)?]));
+    }
+}
+
 impl Sheet<'_> {
     /// How far the surfaces of two triangles that cross at `at` come apart on the side where that is less, in model
     /// units, followed until it is `most`. Infinite where it cannot be measured.
-    pub fn apart(&self, [a, b]: [u32; 2], at: &Vec3, most: f64) -> f64 {
-        let normals = [a, b].map(|t| self.normals[t as usize]);
+    pub fn apart(&self, of: [u32; 2], at: &Vec3, most: f64) -> f64 {
+        let normals = of.map(|t| self.normals[t as usize]);
         let across = cross(&normals[0], &normals[1]);
         let sine = dot(&across, &across).sqrt();
         if sine < PARALLEL {
@@ -71,38 +110,26 @@ impl Sheet<'_> {
         let size = dot(&up, &up).sqrt();
         let up = up.map(|c| c / size);
         let along = cross(&across, &up);
-        let side = |along| self.apart_ahead([a, b], &Frame { at, across, along, up }, most);
-        side(along).min(side(along.map(|c| -c)))
-    }
-
-    fn apart_ahead(&self, [a, b]: [u32; 2], frame: &Frame, most: f64) -> f64 {
-        let (Some(mut a), Some(mut b)) = (Section::begin(self, frame, a), Section::begin(self, frame, b)) else {
-            return f64::INFINITY;
-        };
-        let mut widest: f64 = 0.0;
-        for _ in 0..STEPS {
-            let here = a.to[0].min(b.to[0]);
-            let gap = a.height(here) - b.height(here);
-            if gap * widest < 0.0 {
-                break;
+        let mut sides = [along, along.map(|c| -c)].map(|along| Side::new(self, Frame { at, across, along, up }, of));
+        loop {
+            // The lesser distance counts: once one side has ended, the other is followed only while it has less.
+            let ended = sides.iter().filter(|side| side.ahead.is_none());
+            let limit = ended.map(|side| side.widest.abs()).fold(most, f64::min);
+            let mut followed = false;
+            for side in sides.iter_mut().filter(|side| side.ahead.is_some() && side.widest.abs() < limit) {
+                side.advance(self);
+                followed = true;
             }
-            if gap.abs() > widest.abs() {
-                widest = gap;
+            if !followed {
+                return sides[0].widest.abs().min(sides[1].widest.abs());
             }
-            if widest.abs() >= most {
-                break;
-            }
-            let (done_a, done_b) = (a.to[0] <= here, b.to[0] <= here);
-            let ahead = |section: Section, done| if done { section.next(self, frame) } else { Some(section) };
-            let (Some(next_a), Some(next_b)) = (ahead(a, done_a), ahead(b, done_b)) else { break };
-            (a, b) = (next_a, next_b);
         }
-        widest.abs()
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::planar_faces::Edges;
     use super::*;
     use hlr_mesh::kinds::{INTERIOR, SHARP};
     use hlr_mesh::topology;
@@ -123,8 +150,8 @@ mod tests {
         let t = topology::topology(&triangles, points.len());
         let normals = &topology::normals(&points, &triangles)[..];
         let kinds = &vec![kind; t.edges.len()][..];
-        let (edges, offsets, incident) = (&t.edges[..], &t.offsets[..], &t.incident[..]);
-        let sheet = Sheet { points: &points, triangles: &triangles, edges, offsets, incident, kinds, normals };
+        let edges = Edges { edges: &t.edges, offsets: &t.offsets, incident: &t.incident };
+        let sheet = Sheet::new(&points, (&triangles, normals), (edges, kinds));
         let [[p, q], [r, s]] = [0, 1].map(|k| [profiles[k][cross[k]], profiles[k][cross[k] + 1]]);
         let height = |a: [f64; 2], b: [f64; 2], x: f64| a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]);
         let gap = |x: f64| height(p, q, x) - height(r, s, x);

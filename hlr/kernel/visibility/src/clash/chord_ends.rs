@@ -122,6 +122,7 @@ fn across(borders: &[Border], whole: &Vec3, deflection: f64) -> Option<Across> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::planar_faces::Edges;
     use super::super::planes::Planes;
     use super::super::reach::Sheet;
     use super::super::triangle_pair::Meeting;
@@ -143,16 +144,17 @@ mod tests {
         let below = [0.0, 0.0, -9.0];
         let upright = [[0.0, 0.0, -5.0], [9.0, 0.0, 0.0], [0.0, 0.0, 5.0]];
         let points = [a, b, c, below, upright[0], upright[1], upright[2]];
+        let edges = Edges {
+            edges: &[[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [4, 5], [4, 6], [5, 6]],
+            offsets: &[0, 2, 3, 4, 5, 6, 7, 8, 9],
+            incident: &[0, 1, 0, 1, 0, 1, 2, 2, 2],
+        };
         let bodies = Bodies {
-            sheet: Sheet {
-                points: &points,
-                triangles: &[[0, 1, 2], [1, 0, 3], [4, 5, 6]],
-                edges: &[[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [4, 5], [4, 6], [5, 6]],
-                offsets: &[0, 2, 3, 4, 5, 6, 7, 8, 9],
-                incident: &[0, 1, 0, 1, 0, 1, 2, 2, 2],
-                kinds: &[INTERIOR; 8],
-                normals: &[[0.0, 0.0, 1.0]; 3],
-            },
+            sheet: Sheet::new(
+                &points,
+                (&[[0, 1, 2], [1, 0, 3], [4, 5, 6]], &[[0.0, 0.0, 1.0]; 3]),
+                (edges, &[INTERIOR; 8]),
+            ),
             group: &[0, 0, 1],
             face: &[0, beyond, 1],
             planes: &Planes::default(),

@@ -192,6 +192,7 @@ fn small(bodies: &Bodies, all: &[Candidate], kept: &[usize], nodes: &Nodes, poin
 
 #[cfg(test)]
 mod tests {
+    use super::super::planar_faces::Edges;
     use super::super::planes::Planes;
     use super::super::reach::Sheet;
     use super::super::triangle_pair::Meeting;
@@ -200,16 +201,8 @@ mod tests {
     /// Two walls through a floor, and a segment between them in which faces meet at no angle, `level` deep.
     fn lines(level: f64) -> usize {
         let points = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
-        let (edges, normals) = ([], [[0.0, 0.0, 1.0]; 2]);
-        let sheet = Sheet {
-            points: &points,
-            triangles: &[[0, 1, 2]; 2],
-            edges: &edges,
-            offsets: &[0],
-            incident: &[],
-            kinds: &[],
-            normals: &normals,
-        };
+        let edges = Edges { edges: &[], offsets: &[0], incident: &[] };
+        let sheet = Sheet::new(&points, (&[[0, 1, 2]; 2], &[[0.0, 0.0, 1.0]; 2]), (edges, &[]));
         let (planes, touch) = (Planes::default(), [1.0; 2]);
         let without_brep = &[false; 2];
         let bodies = Bodies {

@@ -72,13 +72,12 @@ pub fn crossings(
     let group = &scene.bodies.group_of[..];
     let triangles = &scene.turned.as_ref().map_or(&tables.triangles, |turned| &turned.triangles)[..];
     let plane: Vec<i32> = scene.planar_face(tables).map(|face| face.unwrap_or(NO_PLANE)).collect();
-    let (edges, offsets, incident) = (&facts.edges[..], &facts.offsets[..], &facts.incident[..]);
-    let planar = PlanarFaces::new(plane, triangles, tables.points.len(), &Edges { edges, offsets, incident });
+    let edges = Edges { edges: &facts.edges, offsets: &facts.offsets, incident: &facts.incident };
+    let planar = PlanarFaces::new(plane, triangles, tables.points.len(), &edges);
     let met = met(&tables.points, (triangles, group, &planar), &scene.folded, stopped)?;
     let (found, ends, points) = (&met.clashes.found[..], &met.ends[..], &met.points[..]);
     let without_brep: Vec<bool> = scene.bodies.part_of.iter().map(|&p| !tables.brep[p as usize]).collect();
-    let (kinds, normals) = (&scene.kind[..], &facts.normals[..]);
-    let sheet = Sheet { points: &tables.points, triangles, edges, offsets, incident, kinds, normals };
+    let sheet = Sheet::new(&tables.points, (triangles, &facts.normals), (edges, &scene.kind));
     let planes = planes(&sheet, &planar.of, found);
     let (face, planes) = (&planar.of[..], &planes);
     let bodies = Bodies { sheet, group, face, planes, without_brep: &without_brep, touch, deflection };

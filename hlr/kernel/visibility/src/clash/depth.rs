@@ -156,8 +156,8 @@ impl Bodies<'_> {
         let mut sides = [None; 3];
         for k in 0..3 {
             let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
-            let Ok(e) = sheet.edges.binary_search(&[a.min(b), a.max(b)]) else { continue };
-            let beside = &sheet.incident[sheet.offsets[e] as usize..sheet.offsets[e + 1] as usize];
+            let Some(edge) = sheet.edge(t, k) else { continue };
+            let beside = sheet.along(edge);
             let next = if beside[0] == t as i32 { beside.get(1) } else { beside.first() };
             let Some(&next) = next else { continue };
             let Some(v) = sheet.triangles[next as usize].into_iter().find(|&v| v != a && v != b) else { continue };

@@ -28,6 +28,7 @@ pub struct PlanarFaces {
 }
 
 /// The triangles of edge e are incident[offsets[e]..offsets[e + 1]].
+#[derive(Clone, Copy)]
 pub struct Edges<'a> {
     pub edges: &'a [[i32; 2]],
     pub offsets: &'a [i32],

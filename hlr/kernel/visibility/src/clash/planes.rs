@@ -107,6 +107,7 @@ fn order(a: &Vec3, b: &Vec3) -> Ordering {
 
 #[cfg(test)]
 mod tests {
+    use super::super::planar_faces::Edges;
     use super::super::search::Clash;
     use super::super::triangle_pair::Meeting;
     use super::*;
@@ -121,15 +122,8 @@ mod tests {
             let mut triangles = triangles;
             triangles.rotate_left(turn);
             let normals = topology::normals(&points, &triangles);
-            let sheet = Sheet {
-                points: &points,
-                triangles: &triangles,
-                edges: &[],
-                offsets: &[],
-                incident: &[],
-                kinds: &[],
-                normals: &normals,
-            };
+            let edges = Edges { edges: &[], offsets: &[0], incident: &[] };
+            let sheet = Sheet::new(&points, (&triangles, &normals), (edges, &[]));
             let meeting = Meeting { ends: [[0; 3]; 2], depth: 0.0, sine: 1.0 };
             let found = planes(&sheet, &[7, 7, 7], &[Clash { triangles: [0, 1], meeting }]);
             assert_eq!(found.get(7).unwrap().normal, [0.0, 0.0, 1.0]);

@@ -9,17 +9,18 @@
 //!             ¯
 //! ```
 
+use super::planar_faces::Edges;
 use hlr_mesh::kinds::SHARP;
 
-/// A mesh with its edges, ascending, and the triangles and the class of each (`hlr_mesh::kinds`).
+/// A mesh with its edges, ascending, and the class of each (`hlr_mesh::kinds`).
 pub struct Sheet<'a> {
     pub points: &'a [Vec3],
     pub triangles: &'a [[i32; 3]],
-    pub edges: &'a [[i32; 2]],
-    pub offsets: &'a [i32],
-    pub incident: &'a [i32],
-    pub kinds: &'a [u8],
     pub normals: &'a [Vec3],
+    edges: Edges<'a>,
+    kinds: &'a [u8],
+    /// Per point the number of the first edge that has it as its lower end; at last the number of edges.
+    first: Vec<u32>,
 }
 
 pub type Vec3 = [f64; 3];
@@ -44,7 +45,22 @@ pub struct Exit {
     pub place: Vec3,
 }
 
-impl Sheet<'_> {
+impl<'a> Sheet<'a> {
+    pub fn new(
+        points: &'a [Vec3],
+        (triangles, normals): (&'a [[i32; 3]], &'a [Vec3]),
+        (edges, kinds): (Edges<'a>, &'a [u8]),
+    ) -> Sheet<'a> {
+        let mut first = Vec::with_capacity(points.len() + 1);
+        for (number, &[lower, _]) in edges.edges.iter().enumerate() {
+            if first.len() <= lower as usize {
+                first.resize(lower as usize + 1, number as u32);
+            }
+        }
+        first.resize(points.len() + 1, edges.edges.len() as u32);
+        Sheet { points, triangles, normals, edges, kinds, first }
+    }
+
     /// How far the surface of triangle `of` goes beyond the plane through `at` with the normal `up` on its shallower
     /// side, in model units, followed up to `most`. Infinite where it cannot be measured.
     pub fn reach(&self, up: &Vec3, of: u32, at: &Vec3, most: f64) -> f64 {
@@ -76,9 +92,10 @@ impl Sheet<'_> {
             if height >= most {
                 return height;
             }
-            let Some((next, left)) = self.onward(triangle, exit.side, at, section) else { return height };
+            let Some(edge) = self.edge(triangle, exit.side) else { return height };
+            let Some((next, left)) = self.onward(triangle, edge, at, section) else { return height };
             let turn = dot(&self.normals[triangle as usize], &self.normals[next as usize]);
-            if turn < SHALLOW && self.sharp(triangle, exit.side) {
+            if turn < SHALLOW && self.sharp(edge) {
                 return height;
             }
             let way = minus(&left.place, &exit.place);
@@ -91,10 +108,10 @@ impl Sheet<'_> {
         f64::INFINITY
     }
 
-    /// The next triangle along a section, and where the section leaves it; None where the surface ends or turns by
-    /// more than facets do.
-    pub fn onward(&self, triangle: u32, side: usize, at: &Vec3, section: &Vec3) -> Option<(u32, Exit)> {
-        let (next, entry) = self.beyond(triangle, side)?;
+    /// The next triangle along a section that leaves a triangle over an edge, and where the section leaves that one; None
+    /// where the surface ends or turns by more than facets do.
+    pub fn onward(&self, triangle: u32, edge: usize, at: &Vec3, section: &Vec3) -> Option<(u32, Exit)> {
+        let (next, entry) = self.over(triangle, edge)?;
         if dot(&self.normals[triangle as usize], &self.normals[next as usize]) < SMOOTH {
             return None;
         }
@@ -115,22 +132,34 @@ impl Sheet<'_> {
     }
 
     /// The number of a side's edge.
-    fn edge(&self, triangle: u32, side: usize) -> Option<usize> {
+    pub fn edge(&self, triangle: u32, side: usize) -> Option<usize> {
         let own = self.triangles[triangle as usize];
         let (a, b) = (own[side], own[(side + 1) % 3]);
-        self.edges.binary_search(&[a.min(b), a.max(b)]).ok()
+        let first = self.first[a.min(b) as usize] as usize;
+        let from_lower = &self.edges.edges[first..self.first[a.min(b) as usize + 1] as usize];
+        from_lower.binary_search_by_key(&a.max(b), |edge| edge[1]).ok().map(|k| first + k)
     }
 
-    /// Whether a side is a sharp edge of the source.
-    pub fn sharp(&self, triangle: u32, side: usize) -> bool {
-        self.edge(triangle, side).is_some_and(|e| self.kinds[e] == SHARP)
+    /// Whether this is a sharp edge of the source.
+    pub fn sharp(&self, edge: usize) -> bool {
+        self.kinds[edge] == SHARP
+    }
+
+    /// The triangles along an edge.
+    pub fn along(&self, edge: usize) -> &[i32] {
+        let Edges { offsets, incident, .. } = self.edges;
+        &incident[offsets[edge] as usize..offsets[edge + 1] as usize]
     }
 
     /// The triangle beyond a side, and which side of its own that is; None where there is not exactly one.
     pub fn beyond(&self, triangle: u32, side: usize) -> Option<(u32, usize)> {
-        let e = self.edge(triangle, side)?;
-        let [a, b] = self.edges[e];
-        let [s, t] = self.incident[self.offsets[e] as usize..self.offsets[e + 1] as usize] else { return None };
+        self.over(triangle, self.edge(triangle, side)?)
+    }
+
+    /// The triangle on the other side of one of a triangle's edges, and which side of its own that is.
+    fn over(&self, triangle: u32, edge: usize) -> Option<(u32, usize)> {
+        let [a, b] = self.edges.edges[edge];
+        let [s, t] = *self.along(edge) else { return None };
         let next = if s == triangle as i32 { t } else { s };
         let corners = self.triangles[next as usize];
         let entry = (0..3).find(|&k| corners[k] != a && corners[k] != b).map(|apex| (apex + 1) % 3)?;
@@ -176,8 +205,9 @@ mod tests {
     fn reach_with(kind: u8, points: &[Vec3], triangles: &[[i32; 3]], of: u32, at: Vec3, most: f64) -> f64 {
         let t = topology::topology(triangles, points.len());
         let normals = &topology::normals(points, triangles)[..];
-        let (edges, offsets, incident) = (&t.edges[..], &t.offsets[..], &t.incident[..]);
-        let sheet = Sheet { points, triangles, edges, offsets, incident, kinds: &vec![kind; edges.len()], normals };
+        let edges = Edges { edges: &t.edges, offsets: &t.offsets, incident: &t.incident };
+        let kinds = vec![kind; t.edges.len()];
+        let sheet = Sheet::new(points, (triangles, normals), (edges, &kinds));
         sheet.reach(&normals[0], of, &at, most)
     }
 
