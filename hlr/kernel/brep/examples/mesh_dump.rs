@@ -86,7 +86,8 @@ fn main() {
                     Fault::Open => "open",
                     Fault::Degenerate => "degenerate",
                     Fault::TooFine => "too fine",
-                    Fault::NotCertified(_) => "not certified",
+                    Fault::NotCertified(..) => "not certified",
+                    Fault::TooMuchWork => "too much work",
                 };
                 *faults.entry(name).or_insert(0) += 1;
                 if has("--faults") {

@@ -11,6 +11,7 @@ mod copied_points;
 pub mod copies;
 pub mod crossed;
 pub mod divided;
+mod each_face;
 pub mod edges;
 pub mod explore;
 pub mod faces;

@@ -4,25 +4,28 @@
 //! faces are then meshed again.
 
 use std::collections::BTreeSet;
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
 use crate::copied_points::{copy_points, of_originals};
+use crate::each_face::each_face;
 use crate::edges::{Polyline, polyline};
 use crate::faces::{Border, Node, border};
-use crate::mesh::{Done, FaceMesh, Fault, Progress, border_share, mesh_face, upon_one_another};
+use crate::mesh::{Done, FaceMesh, Fault, Interrupted, Progress, border_share, mesh_face, upon_one_another};
 use crate::model::Model;
 use crate::shapes::Face;
 
 /// Limit on the rounds in which chords are divided.
 const MOST_ROUNDS: usize = 12;
-/// Limit on the rounds for a face without a proof of its chord error: either its chords or its surface may be the
-/// reason.
+/// Limit on the rounds in which the chords of a face are divided because they are too coarse, and on those in which they
+/// are because its chord error could not be proved: either its chords or its surface may be the reason.
 const ROUNDS_UNCERTIFIED: usize = 6;
 /// Limit on the rounds for two chords that lie upon one another: no division parts such edges.
 const ROUNDS_UPON: usize = 4;
+/// Limit on the steps that one face takes in all rounds: 16 million triangles take half of them, most faces a few
+/// thousand. What takes more is left to another mesher.
+pub const MOST_STEPS: u64 = 1 << 29;
 /// Points of all edges, and of all faces: 16 million triangles, about 4 GB of a drawing.
 pub const MOST_POINTS: usize = 8_000_000;
 /// Chord error by the size of a face: below it, the wish is the reason that a face needs too many points. Above it, its
@@ -78,7 +81,7 @@ pub fn tessellate(
     let full = || used.load(Ordering::Relaxed) > most_points;
     let stopped = || full() || (watch.stopped)();
     let limited = Watch { stopped: &stopped, done: watch.done };
-    let made = meshed(model, deflection, angle, &used, &limited);
+    let made = meshed(model, deflection, angle, &used, MOST_STEPS, &limited);
     // Points are only ever added, and each edge and face has as many on any number of threads.
     if full() {
         return Err(Ended::TooFine);
@@ -103,8 +106,15 @@ fn extent(face: &Face, lines: &[Option<Polyline>]) -> f64 {
     (0..3).map(|k| (high[k] - low[k]).max(0.0).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The mesh; None if it was stopped. `used`: points so far.
-fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch: &Watch) -> Option<Tessellation> {
+/// The mesh; None if it was stopped. `used`: points so far. `most_steps`: `MOST_STEPS` but for tests.
+fn meshed(
+    model: &Model,
+    deflection: f64,
+    angle: f64,
+    used: &AtomicUsize,
+    most_steps: u64,
+    watch: &Watch,
+) -> Option<Tessellation> {
     let shares = shares_of_edges(model);
     let mut lines: Vec<Option<Polyline>> = model
         .edges
@@ -128,19 +138,29 @@ fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch:
     let mut wanted: Vec<usize> = (0..model.faces.len()).collect();
     // Faces whose coarse chords cannot be divided any further: they are meshed with these chords.
     let mut settled: BTreeSet<usize> = BTreeSet::new();
+    // Rounds in which a face was meshed without a proof of its chord error, and steps that it took.
+    let mut unproved = vec![0; model.faces.len()];
+    let taken: Vec<AtomicU64> = model.faces.iter().map(|_| AtomicU64::new(0)).collect();
     let told: Vec<AtomicUsize> = model.faces.iter().map(|_| AtomicUsize::new(0)).collect();
     for round in 0..=MOST_ROUNDS {
-        let tries = each(
+        let tries = each_face(
             &mut wanted,
             model,
             &lines,
             |i| {
                 let divisible = round < MOST_ROUNDS && !settled.contains(&i);
                 let same = round < ROUNDS_UPON;
-                let steps = Progress::new(watch.stopped, Some(Done { all: watch.done, face: &told[i] }));
+                let left = most_steps.saturating_sub(taken[i].load(Ordering::Relaxed));
+                let steps = Progress::new(watch.stopped, Some(Done { all: watch.done, face: &told[i] }), left);
                 let face = &model.faces[i];
                 let tried =
-                    steps.watched(|| try_face(model, face, &lines, deflection, angle, [divisible, same], &steps))?;
+                    steps.watched(|| try_face(model, face, &lines, deflection, angle, [divisible, same], &steps));
+                taken[i].fetch_add(steps.count(), Ordering::Relaxed);
+                let tried = match tried {
+                    Ok(tried) => tried,
+                    Err(Interrupted::TooMuch) => failed(Fault::TooMuchWork, Vec::new()),
+                    Err(Interrupted::Stopped) => return None,
+                };
                 let (now, before) = (tried.face.mesh.points.len(), faces[i].mesh.points.len());
                 used.fetch_add(now.saturating_sub(before), Ordering::Relaxed);
                 if !tried.waits {
@@ -148,7 +168,7 @@ fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch:
                 }
                 Some(tried)
             },
-            watch,
+            watch.stopped,
         )?;
         let last = round == MOST_ROUNDS;
         let mut divided: BTreeSet<(u32, u32)> = BTreeSet::new();
@@ -157,8 +177,15 @@ fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch:
             if waits {
                 waiting.push(i);
             }
-            let uncertified = matches!(face.fault, Some(Fault::NotCertified(_)));
-            if !last && (!uncertified || round < ROUNDS_UNCERTIFIED) {
+            let rounds = match face.fault {
+                _ if waits => round,
+                Some(Fault::NotCertified(..)) => {
+                    unproved[i] += 1;
+                    unproved[i] - 1
+                }
+                _ => 0,
+            };
+            if !last && rounds < ROUNDS_UNCERTIFIED {
                 divided.extend(coarse);
             }
             faces[i] = face;
@@ -223,52 +250,6 @@ fn faces_of_edges(model: &Model) -> Vec<Vec<usize>> {
     out
 }
 
-/// Calls `work` for the faces, those with the longest borders first, and returns its results in the faces' order; None
-/// where it was stopped.
-fn each<T: Send + Sync>(
-    wanted: &mut [usize],
-    model: &Model,
-    lines: &[Option<Polyline>],
-    work: impl Fn(usize) -> Option<T> + Sync,
-    watch: &Watch,
-) -> Option<Vec<(usize, T)>> {
-    let corners = |i: usize| -> usize {
-        let face = &model.faces[i];
-        let border: usize = face
-            .wires
-            .iter()
-            .flatten()
-            .map(|used| lines[used.edge as usize].as_ref().map_or(0, |line| line.points.len()))
-            .sum();
-        let curved = face.record.as_ref().is_some_and(|r| r.kind > PLANE);
-        border * if curved { 10 } else { 1 }
-    };
-    wanted.sort_by_cached_key(|&i| (std::cmp::Reverse(corners(i)), i));
-    let results: Vec<OnceLock<T>> = (0..wanted.len()).map(|_| OnceLock::new()).collect();
-    let next = AtomicUsize::new(0);
-    let take = || {
-        loop {
-            let k = next.fetch_add(1, Ordering::Relaxed);
-            if k >= wanted.len() || (watch.stopped)() {
-                return;
-            }
-            let Some(result) = work(wanted[k]) else { return };
-            let _ = results[k].set(result);
-        }
-    };
-    if wanted.len() == 1 || rayon::current_num_threads() == 1 {
-        take();
-    } else {
-        rayon::scope(|scope| (0..rayon::current_num_threads()).for_each(|_| scope.spawn(|_| take())));
-    }
-    let found: Option<Vec<T>> = results.into_iter().map(OnceLock::into_inner).collect();
-    let mut found: Vec<(usize, T)> = wanted.iter().copied().zip(found?).collect();
-    found.sort_by_key(|(i, _)| *i);
-    Some(found)
-}
-
-const PLANE: u8 = 1;
-
 #[derive(Default)]
 struct Tried {
     face: MeshedFace,
@@ -276,6 +257,11 @@ struct Tried {
     coarse: Vec<(u32, u32)>,
     /// The face was not meshed, because its chords are to be divided first.
     waits: bool,
+}
+
+/// A face without a mesh, and the chords to be divided.
+fn failed(fault: Fault, coarse: Vec<(u32, u32)>) -> Tried {
+    Tried { face: MeshedFace { fault: Some(fault), ..MeshedFace::default() }, coarse, waits: false }
 }
 
 /// Meshes one face. `divisible`: chords that are too coarse can still be divided, and the face is meshed only after
@@ -292,11 +278,6 @@ fn try_face(
     if face.no_area {
         return Tried::default();
     }
-    let failed = |fault, coarse| Tried {
-        face: MeshedFace { fault: Some(fault), ..MeshedFace::default() },
-        coarse,
-        waits: false,
-    };
     if let Some(own) = &face.own {
         let uv = if own.uv.is_empty() { vec![[f64::NAN; 2]; own.points.len()] } else { own.uv.clone() };
         let mesh = FaceMesh {
@@ -317,7 +298,7 @@ fn try_face(
     };
     let coarse = if divisible { found.coarse(surface, deflection) } else { Vec::new() };
     if !coarse.is_empty() {
-        return Tried { waits: true, ..failed(Fault::NotCertified(f64::INFINITY), coarse) };
+        return Tried { waits: true, ..failed(Fault::NotCertified(f64::INFINITY, Vec::new()), coarse) };
     }
     let Border { mut loops, nodes, chords, off } = found;
     // Two edges that consist of the same single chord enclose nothing at this deflection.
@@ -336,29 +317,17 @@ fn try_face(
     match mesh_face(surface, &loops, deflection, angle, steps) {
         Ok(mesh) => Tried { face: MeshedFace { mesh, nodes, fault: None, off }, coarse: Vec::new(), waits: false },
         Err(fault) => {
-            let coarse = match &fault {
+            let named: Vec<[usize; 2]> = match &fault {
                 Fault::Crossing(pairs) => {
                     let upon = if same { vec![false; pairs.len()] } else { upon_one_another(&loops, pairs) };
                     let parted = pairs.iter().zip(upon).filter(|(_, upon)| !upon);
-                    let ends = parted.flat_map(|(&[a, i, b, j], _)| [(a, i), (b, j)]);
-                    ends.filter_map(|(l, c)| *chords.get(l)?.get(c)?).collect()
+                    parted.flat_map(|(&[a, i, b, j], _)| [[a, i], [b, j]]).collect()
                 }
-                Fault::NotCertified(_) => chords.iter().flat_map(|row| row.iter().flatten().copied()).collect(),
+                Fault::NotCertified(_, coarse) => coarse.clone(),
                 _ => Vec::new(),
             };
+            let coarse = named.iter().filter_map(|&[l, c]| *chords.get(l)?.get(c)?).collect();
             failed(fault, coarse)
-        }
-    }
-}
-
-impl std::fmt::Display for Fault {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Fault::Crossing(_) => write!(f, "its borders cross"),
-            Fault::Open => write!(f, "its border does not close"),
-            Fault::Degenerate => write!(f, "its surface has no normal"),
-            Fault::TooFine => write!(f, "it would need too many points"),
-            Fault::NotCertified(error) => write!(f, "its chord error may be {error:.3e}"),
         }
     }
 }
@@ -376,6 +345,21 @@ mod tests {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let made = pool.install(|| tessellate(&model, deflection, 0.5, most_points, &watch))?;
         Ok(made.faces.iter().map(|face| face.mesh.triangles.len()).sum())
+    }
+
+    #[test]
+    fn a_face_that_takes_too_many_steps_has_no_mesh_and_the_others_have() {
+        let model = Model::read(CYLINDER, None).unwrap();
+        let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
+        let faults = |most_steps| {
+            let made = meshed(&model, 1e-6, 0.5, &AtomicUsize::new(0), most_steps, &watch).unwrap();
+            made.faces.into_iter().map(|face| face.fault).collect::<Vec<_>>()
+        };
+        assert_eq!(faults(MOST_STEPS), [None, None, None]);
+        for threads in [1, 4] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            assert_eq!(pool.install(|| faults(10_000)), [Some(Fault::TooMuchWork), None, None]);
+        }
     }
 
     #[test]

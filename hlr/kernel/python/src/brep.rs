@@ -22,12 +22,12 @@ use hlr_brep::foreign_mesh::{Border, ForeignMesh, with_foreign_mesh};
 use hlr_brep::format::{IDENTITY, Matrix};
 use hlr_brep::geometry::planar::is_flat;
 use hlr_brep::geometry::surface::Surface;
-use hlr_brep::mesh::{OF_A_FACE, Progress, points_inside};
+use hlr_brep::mesh::{Interrupted, OF_A_FACE, Progress, points_inside};
 use hlr_brep::model::Model;
 use hlr_brep::one_sphere::is_one_sphere;
 use hlr_brep::reach::{Placed, reach};
 use hlr_brep::shapes::Face;
-use hlr_brep::tessellate::{Ended, MOST_POINTS, Tessellation, Watch, tessellate};
+use hlr_brep::tessellate::{Ended, MOST_POINTS, MOST_STEPS, Tessellation, Watch, tessellate};
 use hlr_mesh::tables::Tables;
 
 type Records<'py> = (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<f64>>);
@@ -292,8 +292,12 @@ impl BrepMesh {
         expect_below("face", [face as i32].into_iter(), self.model.faces.len())?;
         let mut meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
         let found = run(py, FEW + 1, |stopped| {
-            let steps = Progress::new(stopped, None);
-            steps.watched(|| with_crossed_loops(&self.model, &meshed, face, deflection, angle, &steps))
+            let steps = Progress::new(stopped, None, MOST_STEPS);
+            match steps.watched(|| with_crossed_loops(&self.model, &meshed, face, deflection, angle, &steps)) {
+                Ok(found) => Some(found),
+                Err(Interrupted::TooMuch) => Some(None),
+                Err(Interrupted::Stopped) => None,
+            }
         })?;
         let found = found.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
         Ok(found.map(|found| meshed.faces[face] = found).is_some())

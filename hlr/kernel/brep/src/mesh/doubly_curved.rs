@@ -24,6 +24,9 @@ use hlr_exact::elementary::hypot;
 
 /// Limit on the rounds in which points are inserted.
 const ROUNDS: usize = 16;
+/// The same while no more than a few triangles are too coarse: along a narrow fold each needs the point of another.
+const ROUNDS_OF_FEW: usize = 1024;
+const FEW: usize = 256;
 /// Limit on the points inside one face.
 const MOST: usize = 8_000_000;
 /// Distance in the chart that new points keep from a chord, as a share of the chord's length. The smaller one is used
@@ -62,10 +65,10 @@ pub fn triangulate(
     let mut work = Work::new(surface, &field, &chart, deflection, net, steps);
     steps.reached(DONE[1]);
     work.evaluate(&outline, &inner);
-    let (error, torn) = work.refine();
+    let (error, torn, coarse) = work.refine();
     let Work { corners, net, places, .. } = work;
     let (triangles, bent_chart) = (net.into_triangles(), (!straight).then_some(places));
-    Ok(Ok(Draft { outline, corners, triangles, stand_in, error, torn, bent_chart, turned: Vec::new() }))
+    Ok(Ok(Draft { outline, corners, triangles, stand_in, error, torn, coarse, bent_chart, turned: Vec::new() }))
 }
 
 /// The largest error of some triangles of a mesh, leaving out those of which the border allows no better.
@@ -127,7 +130,7 @@ fn filled(field: &Field, chart: &Outline, steps: &Progress) -> Result<Option<Fil
             inner.retain(|&p| {
                 steps.step();
                 places.push(p);
-                let new = net.insert(&places, places.len() as u32 - 2);
+                let new = net.insert(&places, places.len() as u32 - 2, steps);
                 if !new {
                     places.pop();
                 }
@@ -212,15 +215,16 @@ impl<'a> Work<'a> {
         self.spans.push(self.field.span(uv));
     }
 
-    /// Inserts points where triangles are too coarse. Returns the largest error that remains, and whether it remains
-    /// because the surface is torn.
-    fn refine(&mut self) -> (f64, bool) {
+    /// Inserts points where triangles are too coarse. Returns the largest error that remains, whether it remains because
+    /// the surface is torn, and the chords that meet triangles which are still too coarse, ascending.
+    fn refine(&mut self) -> (f64, bool, Vec<u32>) {
         let (mut worst, mut coarse) = (0.0f64, Vec::new());
         (0..self.net.triangles().len()).for_each(|number| self.judge(number, &mut worst, &mut coarse));
         self.steps.reached(DONE[2]);
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS_OF_FEW {
             let known = self.corners.len();
-            if coarse.is_empty() || known > MOST || !self.divide(&mut coarse) {
+            let late = round >= ROUNDS && coarse.len() > FEW;
+            if coarse.is_empty() || late || known > MOST || !self.divide(&mut coarse) {
                 break;
             }
             coarse.retain(|c| self.net.triangles()[c.number] == c.corners);
@@ -233,8 +237,12 @@ impl<'a> Work<'a> {
                 }
             }
         }
+        let border = coarse.iter().flat_map(|c| c.corners).filter(|&i| (i as usize) < self.chart.len());
+        let mut chords: Vec<u32> = border.flat_map(|i| self.chart.chords_at(i)).collect();
+        chords.sort_unstable();
+        chords.dedup();
         let error = coarse.iter().fold(worst, |w, c| w.max(c.gap.whole));
-        (error, coarse.iter().any(|c| self.is_torn(c.corners)))
+        (error, coarse.iter().any(|c| self.is_torn(c.corners)), chords)
     }
 
     /// Whether the surface is torn within a triangle: its corners are close together in (u, v), but face apart. Spline
@@ -281,7 +289,7 @@ impl<'a> Work<'a> {
             }
             let Some(place) = self.place(gap, *t) else { continue };
             self.places.push(place);
-            if self.net.insert(&self.places, t[0]) {
+            if self.net.insert(&self.places, t[0], self.steps) {
                 t.iter().for_each(|&i| touched[i as usize] = true);
                 self.add(self.field.on_surface(place), None);
                 any = true;

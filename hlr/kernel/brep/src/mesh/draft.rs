@@ -14,6 +14,8 @@ pub struct Draft {
     pub error: f64,
     /// The surface is torn where the error exceeds the deflection.
     pub torn: bool,
+    /// Chords, each by its first point in the outline, that meet a triangle which exceeds the deflection.
+    pub coarse: Vec<u32>,
     /// The corners' places in the chart in which the triangles were made, if it is bent.
     pub bent_chart: Option<Vec<[f64; 2]>>,
     /// Numbers of the loops that run the wrong way, once known.

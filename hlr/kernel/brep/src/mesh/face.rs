@@ -51,6 +51,22 @@ pub enum Fault {
     Degenerate,
     /// The mesh would need more points than fit into memory.
     TooFine,
-    /// The smallest chord error that could be proved, where it exceeds the deflection.
-    NotCertified(f64),
+    /// The smallest chord error that could be proved, where it exceeds the deflection; and the chords, each as (loop,
+    /// chord), that may be the reason, as they meet triangles that exceed it.
+    NotCertified(f64, Vec<[usize; 2]>),
+    /// Its mesh took more steps than a face may take.
+    TooMuchWork,
+}
+
+impl std::fmt::Display for Fault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Fault::Crossing(_) => write!(f, "its borders cross"),
+            Fault::Open => write!(f, "its border does not close"),
+            Fault::Degenerate => write!(f, "its surface has no normal"),
+            Fault::TooFine => write!(f, "it would need too many points"),
+            Fault::NotCertified(error, _) => write!(f, "its chord error may be {error:.3e}"),
+            Fault::TooMuchWork => write!(f, "its mesh takes too many steps"),
+        }
+    }
 }

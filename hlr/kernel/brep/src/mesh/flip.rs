@@ -42,10 +42,6 @@ pub fn flip(uv: &[[f64; 2]], triangles: &mut [[u32; 3]], cost: &impl Fn(u32, u32
 /// Flips edges of triangles that are turned over in (u, v), where that corrects them. Triangles that are
 /// counterclockwise in a bent chart may be clockwise in (u, v).
 pub fn upright(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
-    let over = |t: [u32; 3]| {
-        let [a, b, c] = t.map(|i| &uv[i as usize]);
-        side(a, b, c) < 0.0
-    };
     // The rounded area decides nearly all triangles without exact arithmetic.
     let doubtful = |t: &&[u32; 3]| {
         let [a, b, c] = t.map(|i| uv[i as usize]);
@@ -55,16 +51,27 @@ pub fn upright(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
         return;
     }
     let mut twins = twins(triangles);
+    upright_of_twins(uv, triangles, &mut twins);
+}
+
+/// The same where the twins of all edges are known; they are kept right.
+pub fn upright_of_twins(uv: &[[f64; 2]], triangles: &mut [[u32; 3]], twins: &mut [u32]) {
+    let over = |t: [u32; 3]| {
+        let [a, b, c] = t.map(|i| &uv[i as usize]);
+        side(a, b, c) < 0.0
+    };
     for t in 0..triangles.len() {
+        let mut wrong = over(triangles[t]);
         for edge in 3 * t..3 * t + 3 {
             let twin = twins[edge] as usize;
-            if !over(triangles[t]) || twins[edge] == NONE {
+            if !wrong || twins[edge] == NONE {
                 continue;
             }
             let (a, b) = (start(triangles, edge), start(triangles, twin));
             let (c, d) = (start(triangles, before_in(edge)), start(triangles, before_in(twin)));
             if c != d && !over([c, d, b]) && !over([d, c, a]) {
-                turn(triangles, &mut twins, edge, twin);
+                turn(triangles, twins, edge, twin);
+                wrong = over(triangles[t]);
             }
         }
     }

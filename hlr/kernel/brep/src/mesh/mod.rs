@@ -34,7 +34,7 @@ pub use face::{FaceLoops, FaceMesh, Fault, LoopPoint};
 use gap::Corner;
 use hlr_accuracy::MESH_BORDER;
 use outline::Outline;
-pub use progress::{Done, OF_A_FACE, Progress};
+pub use progress::{Done, Interrupted, OF_A_FACE, Progress};
 pub use untangle::mesh_crossed;
 
 /// Twice the area of a triangle in (u, v), rounded.
@@ -66,7 +66,7 @@ pub fn mesh_face(
     steps: &Progress,
 ) -> Result<FaceMesh, Fault> {
     let bent = |straight| doubly_curved::triangulate(surface, loops, deflection, angle, straight, steps);
-    let proved = |made| proved(surface, made, deflection);
+    let proved = |made| proved(surface, made, deflection, steps);
     let made = match (surface, ruled::straight_along(surface)) {
         (Surface::Plane(_), _) => proved(flat(surface, Outline::new(loops, |_, _, _| ())?, deflection, steps)),
         (_, Some(straight)) => {
@@ -88,13 +88,14 @@ pub fn mesh_face(
         },
     };
     let made = made.map_err(|outline| why(&outline))?;
+    let named = |&chord: &u32| made.outline.origin.get(chord as usize).map(|&(number, chord)| [number, chord]);
     let nodes = &made.outline.nodes;
     if made.stand_in.iter().zip(nodes).any(|(&i, &node)| nodes[i as usize] != node) {
         return Err(Fault::Degenerate);
     }
     let kept = made.error <= deflection * (1.0 + ROUNDING);
     if !kept && !made.torn {
-        return Err(Fault::NotCertified(made.error));
+        return Err(Fault::NotCertified(made.error, made.coarse.iter().filter_map(named).collect()));
     }
     let torn = if kept { 0.0 } else { made.error };
     Ok(FaceMesh { torn, ..finish(surface, made) })
@@ -125,14 +126,19 @@ pub fn points_inside(surface: &Surface, deflection: f64, angle: f64) -> Option<u
 }
 
 /// The mesh, proved to fill the loops and use all of their points; the outline where the proof fails.
-fn proved(surface: &Surface, made: Result<Draft, Box<Outline>>, deflection: f64) -> Result<Draft, Box<Outline>> {
+fn proved(
+    surface: &Surface,
+    made: Result<Draft, Box<Outline>>,
+    deflection: f64,
+    steps: &Progress,
+) -> Result<Draft, Box<Outline>> {
     let mut made = made?;
     made.outline.rejoin(&mut made.triangles);
     let uv: Vec<_> = made.corners.iter().map(|c| c.uv).collect();
     let in_chart = made.bent_chart.as_ref().map(|_| made.triangles.clone());
     flip::upright(&uv, &mut made.triangles);
     let mut proof = check::proof(&made.outline, &uv, &made.stand_in, &made.triangles);
-    if proof.is_none() && straightened(surface, &mut made, &uv, in_chart, deflection) {
+    if proof.is_none() && straightened(surface, &mut made, &uv, in_chart, deflection, steps) {
         proof = check::proof(&made.outline, &uv, &made.stand_in, &made.triangles);
     }
     let Some(proof) = proof else {
@@ -152,10 +158,11 @@ fn straightened(
     uv: &[[f64; 2]],
     in_chart: Option<Vec<[u32; 3]>>,
     deflection: f64,
+    steps: &Progress,
 ) -> bool {
     let (Some(chart), Some(in_chart)) = (&made.bent_chart, in_chart) else { return false };
     made.triangles.clone_from(&in_chart);
-    if !straighten::straighten(chart, uv, &mut made.triangles) {
+    if !straighten::straighten(chart, uv, &mut made.triangles, steps) {
         return false;
     }
     let flipped = made.triangles.iter().zip(&in_chart).filter(|(new, old)| new != old).map(|(new, _)| *new);
@@ -169,12 +176,24 @@ fn flat(surface: &Surface, outline: Outline, deflection: f64, steps: &Progress) 
     let Some((triangles, stand_in, error)) = ruled::triangulate(surface, &outline, deflection, steps) else {
         return Err(Box::new(outline));
     };
+    // All triangles are between chords.
+    let coarse = if error > deflection { outline.chords().collect() } else { Vec::new() };
     let corner = |(&uv, &point): (&[f64; 2], &[f64; 3])| match surface {
         Surface::Plane(_) => Corner { uv, point, normal: surface.normal([0.0; 2]).unwrap_or_default() },
         _ => Corner { uv, point, normal: surface.normal(uv).unwrap_or_default() },
     };
     let corners = outline.uv.iter().zip(&outline.points).map(corner).collect();
-    Ok(Draft { outline, corners, triangles, stand_in, error, torn: false, bent_chart: None, turned: Vec::new() })
+    Ok(Draft {
+        outline,
+        corners,
+        triangles,
+        stand_in,
+        error,
+        torn: false,
+        coarse,
+        bent_chart: None,
+        turned: Vec::new(),
+    })
 }
 
 const ROUNDING: f64 = 1e-9;

@@ -105,6 +105,12 @@ impl Outline {
         (0..self.uv.len() as u32).filter(|&c| self.after[c as usize] != NONE)
     }
 
+    /// The chords that end or begin at a point, or at one set aside there; none at a point that is set aside itself.
+    pub fn chords_at(&self, point: u32) -> impl Iterator<Item = u32> + '_ {
+        let own = [self.before[point as usize], point].into_iter().filter(move |_| self.after[point as usize] != NONE);
+        own.chain(self.aside.iter().filter(move |aside| aside.1 == point).map(|aside| aside.0))
+    }
+
     fn divide_poles(&mut self, divide: impl Fn([f64; 2], [f64; 2], &mut Vec<f64>)) {
         let mut shares = Vec::new();
         for p in 0..self.origin.len() {

@@ -1,6 +1,7 @@
-//! Progress of the work on one face: the caller can read how far it is, and can stop it at any step.
+//! Progress of the work on one face: the caller can read how far it is, can stop it at any step, and bounds its steps.
 //!
-//! A stop unwinds the stack to `Progress::watched`, out of any loop or library.
+//! A stop unwinds the stack to `Progress::watched`, out of any loop or library. So does a step too many: steps are
+//! counted, as time would differ from machine to machine.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -9,12 +10,22 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Units of progress that one face counts for.
 pub const OF_A_FACE: usize = 1000;
 /// Steps between two checks for a stop. A step takes less than 10 microseconds.
-const OFTEN: u32 = 1 << 12;
+const OFTEN: u64 = 1 << 12;
 
 pub struct Progress<'a> {
     stopped: &'a (dyn Fn() -> bool + Sync),
     told: Option<Done<'a>>,
-    count: Cell<u32>,
+    count: Cell<u64>,
+    most: u64,
+}
+
+/// Why work ended before its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interrupted {
+    /// The caller stopped it.
+    Stopped,
+    /// It took more steps than it may take.
+    TooMuch,
 }
 
 /// Units of progress done so far: on all faces, and on this face.
@@ -24,34 +35,48 @@ pub struct Done<'a> {
     pub face: &'a AtomicUsize,
 }
 
-struct Stopped;
-
 impl<'a> Progress<'a> {
-    pub fn new(stopped: &'a (dyn Fn() -> bool + Sync), told: Option<Done<'a>>) -> Progress<'a> {
-        Progress { stopped, told, count: Cell::new(0) }
+    /// `most`: the number of steps that the work may take.
+    pub fn new(stopped: &'a (dyn Fn() -> bool + Sync), told: Option<Done<'a>>, most: u64) -> Progress<'a> {
+        Progress { stopped, told, count: Cell::new(0), most }
     }
 
     /// Progress that is never stopped.
     pub fn free() -> Progress<'static> {
-        Progress::new(&|| false, None)
+        Progress::new(&|| false, None, u64::MAX)
     }
 
-    /// The result of `work`; None if it was stopped.
-    pub fn watched<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
-        match catch_unwind(AssertUnwindSafe(work)) {
-            Ok(found) => Some(found),
-            Err(reason) if reason.is::<Stopped>() => None,
-            Err(reason) => resume_unwind(reason),
-        }
+    /// The result of `work`, unless it was interrupted.
+    pub fn watched<T>(&self, work: impl FnOnce() -> T) -> Result<T, Interrupted> {
+        catch_unwind(AssertUnwindSafe(work)).map_err(|reason| match reason.downcast_ref::<Interrupted>() {
+            Some(&why) => why,
+            None => resume_unwind(reason),
+        })
+    }
+
+    /// The number of steps so far.
+    pub fn count(&self) -> u64 {
+        self.count.get()
     }
 
     /// Counts one step; call it only within `watched`.
     pub fn step(&self) {
-        let count = self.count.get().wrapping_add(1);
+        self.steps(1);
+    }
+
+    /// Counts several steps.
+    pub fn steps(&self, more: u64) {
+        let before = self.count.get();
+        let count = before + more;
         self.count.set(count);
-        if count.is_multiple_of(OFTEN) && (self.stopped)() {
-            // Unwinds without a panic hook: a stop is no error.
-            resume_unwind(Box::new(Stopped));
+        if count / OFTEN > before / OFTEN {
+            // Unwinds without a panic hook: neither is an error.
+            if count > self.most {
+                resume_unwind(Box::new(Interrupted::TooMuch));
+            }
+            if (self.stopped)() {
+                resume_unwind(Box::new(Interrupted::Stopped));
+            }
         }
     }
 
@@ -71,7 +96,7 @@ mod tests {
     #[test]
     fn a_stop_ends_the_work_from_within() {
         let (all, face) = (AtomicUsize::new(7), AtomicUsize::new(0));
-        let steps = Progress::new(&|| true, Some(Done { all: &all, face: &face }));
+        let steps = Progress::new(&|| true, Some(Done { all: &all, face: &face }), u64::MAX);
         let endless = steps.watched(|| {
             steps.reached(0.25);
             steps.reached(0.2);
@@ -79,7 +104,20 @@ mod tests {
                 steps.step();
             }
         });
-        assert_eq!((endless, all.load(Ordering::Relaxed)), (None::<()>, 7 + OF_A_FACE / 4));
-        assert_eq!(Progress::free().watched(|| 3), Some(3));
+        assert_eq!((endless, all.load(Ordering::Relaxed)), (Err::<(), _>(Interrupted::Stopped), 7 + OF_A_FACE / 4));
+        assert_eq!(Progress::free().watched(|| 3), Ok(3));
+    }
+
+    #[test]
+    fn a_step_too_many_ends_the_work_from_within() {
+        for (each, most) in [(1, 100_000), (7, 100_000), (1_000_000, 100_000), (1, 0)] {
+            let steps = Progress::new(&|| false, None, most);
+            let endless = || loop {
+                steps.steps(each);
+            };
+            assert_eq!(steps.watched::<()>(endless), Err(Interrupted::TooMuch));
+            assert!(steps.count() > most && steps.count() <= most + OFTEN.max(each));
+            assert_eq!(steps.watched(|| 3), Ok(3));
+        }
     }
 }

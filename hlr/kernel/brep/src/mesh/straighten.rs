@@ -9,18 +9,20 @@
 
 use super::flip;
 use super::plane::{area, side};
+use super::progress::Progress;
 
 /// Share of the way in one step: the largest, and the least. A step after which triangles overlap is halved; the next is
 /// twice as long again.
 const STEPS: [f64; 2] = [0.125, 1.0 / 4096.0];
 
 /// Steps that are tried, so that the time is that of so many looks at each triangle.
-const MOST_TRIES: usize = 100;
+const MOST_TRIES: usize = 256;
 
 /// Flips edges so that no triangle is turned over in (u, v). False where that needs steps below the least, or too many.
 ///
 /// `chart`: the same points in the chart, where no triangle is turned over.
-pub fn straighten(chart: &[[f64; 2]], uv: &[[f64; 2]], triangles: &mut Vec<[u32; 3]>) -> bool {
+pub fn straighten(chart: &[[f64; 2]], uv: &[[f64; 2]], triangles: &mut Vec<[u32; 3]>, steps: &Progress) -> bool {
+    let mut twins = flip::twins(triangles);
     let fit = [0, 1].map(|k| onto(range(chart, k), range(uv, k)));
     let mut places = chart.to_vec();
     let (mut passed, [mut step, least]) = (0.0, STEPS);
@@ -29,12 +31,13 @@ pub fn straighten(chart: &[[f64; 2]], uv: &[[f64; 2]], triangles: &mut Vec<[u32;
         for ((place, from), to) in places.iter_mut().zip(chart).zip(uv) {
             *place = if next < 1.0 { [0, 1].map(|k| (1.0 - next) * fit[k](from[k]) + next * to[k]) } else { *to };
         }
-        let mut flipped = triangles.clone();
-        flip::upright(&places, &mut flipped);
+        steps.steps(triangles.len() as u64);
+        let (mut flipped, mut flipped_twins) = (triangles.clone(), twins.clone());
+        flip::upright_of_twins(&places, &mut flipped, &mut flipped_twins);
         let at = |i: u32| &places[i as usize];
         let over = |&[a, b, c]: &[u32; 3]| area(at(a), at(b), at(c)) <= 0.0 && side(at(a), at(b), at(c)) < 0.0;
         if !flipped.iter().any(over) {
-            (*triangles, passed) = (flipped, next);
+            (*triangles, twins, passed) = (flipped, flipped_twins, next);
             if passed >= 1.0 {
                 return true;
             }
@@ -65,24 +68,34 @@ mod tests {
 
     #[test]
     fn a_point_that_passes_several_edges_is_free_again() {
+        passes_edges(8);
+    }
+
+    #[test]
+    fn a_point_that_passes_many_edges_is_free_again() {
+        passes_edges(120);
+    }
+
+    fn passes_edges(row: u32) {
         // A fan from the lower left corner to a row of points on the right side, and a point below the fan, which
         // rises into it.
         let mut chart = vec![[0.0, 0.0], [1.0, 0.0]];
-        chart.extend((0..8u8).map(|k| [1.0, 0.3 + 0.1 * f64::from(k)]));
+        chart.extend((0..row).map(|k| [1.0, 0.3 + 0.7 * f64::from(k) / f64::from(row - 1)]));
         chart.extend([[0.0, 1.0], [0.5, 0.1]]);
-        // 0 and 1 are the lower corners, 2 to 9 the row, the last of them the upper right corner, 10 the upper left one.
-        let mut triangles: Vec<[u32; 3]> = (2..9).map(|k| [0, k, k + 1]).collect();
-        triangles.extend([[0, 9, 10], [0, 1, 11], [1, 2, 11], [2, 0, 11]]);
+        // 0 and 1 are the lower corners, then comes the row up to the upper right corner, then the upper left one.
+        let (last, left, point) = (row + 1, row + 2, row + 3);
+        let mut triangles: Vec<[u32; 3]> = (2..last).map(|k| [0, k, k + 1]).collect();
+        triangles.extend([[0, last, left], [0, 1, point], [1, 2, point], [2, 0, point]]);
         let mut uv = chart.clone();
-        uv[11] = [0.5, 0.42];
+        uv[point as usize] = [0.5, 0.42];
         let area_of = |t: &[u32; 3], at: &[[f64; 2]]| area(&at[t[0] as usize], &at[t[1] as usize], &at[t[2] as usize]);
         assert!(triangles.iter().all(|t| area_of(t, &chart) > 0.0));
         let mut once = triangles.clone();
         flip::upright(&uv, &mut once);
         assert!(once.iter().any(|t| area_of(t, &uv) < 0.0));
-        assert!(straighten(&chart, &uv, &mut triangles));
+        assert!(straighten(&chart, &uv, &mut triangles, &Progress::free()));
         assert!(triangles.iter().all(|t| area_of(t, &uv) >= 0.0));
-        assert_eq!(triangles.len(), 11);
+        assert_eq!(triangles.len(), row as usize + 3);
         let whole: f64 = triangles.iter().map(|t| area_of(t, &uv)).sum();
         assert!((whole - 2.0).abs() < 1e-12);
     }

@@ -96,11 +96,13 @@ impl Triangulation {
 
     /// Inserts the last one of the places; the search begins at the point `near`. False if the place is on the border,
     /// at another point, or outside.
-    pub fn insert(&mut self, places: &[[f64; 2]], near: u32) -> bool {
+    pub fn insert(&mut self, places: &[[f64; 2]], near: u32, steps: &Progress) -> bool {
         let point = places.len() as u32 - 1;
         let p = &places[point as usize];
         let start = self.begins.get(near as usize).copied().filter(|&e| e != NONE).unwrap_or(0) as usize / 3;
-        let Some(found) = self.walk(places, p, start).or_else(|| self.search(places, p)) else { return false };
+        let Some(found) = self.walk(places, p, start, steps).or_else(|| self.search(places, p, steps)) else {
+            return false;
+        };
         let on: Vec<usize> = (3 * found..3 * found + 3).filter(|&e| self.beside(places, e, p) == 0.0).collect();
         self.begins.resize(places.len(), NONE);
         match on[..] {
@@ -113,6 +115,7 @@ impl Triangulation {
         }
         while let Some(edge) = self.stack.pop() {
             // The new point is on this edge's own side.
+            steps.step();
             let twin = self.twins[edge as usize] as usize;
             if self.turned(places, edge as usize) {
                 self.stack.extend([3 * (edge as usize / 3) + 1, 3 * (twin / 3) + 2].map(|e| e as u32));
@@ -126,9 +129,10 @@ impl Triangulation {
     }
 
     /// Walks from triangle to triangle, across edges that have the place on their other side.
-    fn walk(&self, places: &[[f64; 2]], p: &[f64; 2], start: usize) -> Option<usize> {
+    fn walk(&self, places: &[[f64; 2]], p: &[f64; 2], start: usize, steps: &Progress) -> Option<usize> {
         let (mut here, mut from) = (start, NONE);
         for _ in 0..self.triangles.len() {
+            steps.step();
             let mut next = None;
             let mut outside = false;
             for edge in 3 * here..3 * here + 3 {
@@ -149,12 +153,16 @@ impl Triangulation {
         None
     }
 
-    fn search(&mut self, places: &[[f64; 2]], p: &[f64; 2]) -> Option<usize> {
+    fn search(&mut self, places: &[[f64; 2]], p: &[f64; 2], steps: &Progress) -> Option<usize> {
         self.searches += 1;
         if self.searches > MOST_SEARCHES {
             return None;
         }
-        (0..self.triangles.len()).find(|&t| (3 * t..3 * t + 3).all(|e| self.beside(places, e, p) >= 0.0))
+        let around = |&t: &usize| {
+            steps.step();
+            (3 * t..3 * t + 3).all(|e| self.beside(places, e, p) >= 0.0)
+        };
+        (0..self.triangles.len()).find(around)
     }
 
     /// Replaces the triangles of a closed chain of edges by triangles from a point inside to each edge.
@@ -217,7 +225,7 @@ mod tests {
             let inside = x > 0.0 && x < 1.0 && y > 0.0 && y < 1.0;
             let new = !places[..places.len() - 1].contains(&[x, y]);
             let near = k % 7 % places.len() as u32;
-            assert_eq!(net.insert(&places, near), inside && new, "{x} {y}");
+            assert_eq!(net.insert(&places, near, &Progress::free()), inside && new, "{x} {y}");
             if !(inside && new) {
                 places.pop();
             }
