@@ -8,7 +8,7 @@ import hlr
 from hlr.errors import SourceError, StrictError
 from hlr.source.cad import half_space
 from support.brep_shapes import bare_triangles
-from support.sections import hatch_of, hatched_area, outlines_of, section
+from support.sections import hatch_of, hatched_area, opencascade_cuts, outlines_of, section
 
 
 def row(*bodies):
@@ -73,6 +73,7 @@ def test_equal_parts_are_tried_once_and_named_in_one_note(monkeypatch):
             raise half_space.UncuttableError(leaves[0].name, "its shape is not sound", "move the plane a little")
         return cut_away(leaves, *plane)
 
+    opencascade_cuts(monkeypatch)
     monkeypatch.setattr(half_space, "cut_away", fails_with_balls)
     ball = cq.Workplane().sphere(10)
     drawing = section(row(ball, cube(), ball, ball))

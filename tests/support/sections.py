@@ -4,6 +4,7 @@ import cadquery as cq
 import numpy as np
 
 import hlr
+from hlr.source.cad.kernel_cut import NotHereError
 
 WIDTH, DEPTH, HEIGHT, RADIUS = 60.0, 30.0, 40.0, 10.0
 
@@ -40,3 +41,13 @@ def outlines_of(drawing):
             ends = sorted(tuple(np.round(line.points[k], 3).tolist()) for k in (0, -1))
             found.add((line.visible, *ends))
     return found
+
+
+def opencascade_cuts(monkeypatch):
+    """Sections are cut by OpenCASCADE, as where the kernel cannot."""
+    from hlr.pipeline.section import sources
+
+    def cannot(*_):
+        raise NotHereError
+
+    monkeypatch.setattr(sources, "cut_in_kernel", cannot)

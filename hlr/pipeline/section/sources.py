@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -12,13 +13,11 @@ from hlr.common.types import Floats
 from hlr.errors import OptionError, SourceError
 from hlr.pipeline.section.plane import Planes
 from hlr.source.cad.brep_source import BrepSource
-from hlr.source.cad.half_space import UncuttableError
+from hlr.source.cad.half_space import UncuttableError, bare_error
+from hlr.source.cad.kernel_cut import SAME, NotHereError, PartPlane, cut_in_kernel
 from hlr.source.cad.parts import Leaf, Part
 from hlr.source.mesh.mesh_source import MeshSource
 from hlr.source.model import Source
-
-SAME = 12
-"""Decimals of directions, and of heights over the size of a model: planes that agree in them are the same."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +28,7 @@ class CutSource:
     cut      names of those parts of the whole model that the plane cuts
     through  names of those that it goes through, and which stay whole
     uncut    names of all those that stay whole
-    failed   why those stay whole, by name, that OpenCASCADE cannot cut
+    failed   why those stay whole, by name, that cannot be cut
     open     names of those parts of the source that are no bodies, and so have no cut faces; and whether they are cut
     """
 
@@ -105,6 +104,9 @@ def _cut_brep(source: BrepSource, planes: Planes, whole: list[str], crossed: lis
 
     Raises UncuttableError where parts are to be cut, and none can be.
     """
+    if not planes.steps:
+        with suppress(NotHereError):
+            return _cut_in_kernel(source, planes, whole, crossed)
     left = _left_of(source, planes, set(whole), set(crossed))
     if left.failed and not left.cut:
         raise next(iter(left.failed.values()))
@@ -113,6 +115,18 @@ def _cut_brep(source: BrepSource, planes: Planes, whole: list[str], crossed: lis
     built = _rebuilt(source, left)
     whose = {part.name: part.product for part in built.parts}
     return CutSource(built, whose, frozenset(left.cut), failed=left.failed)
+
+
+def _cut_in_kernel(source: BrepSource, planes: Planes, whole: list[str], crossed: list[str]) -> CutSource | None:
+    """The same in the kernel. Raises NotHereError where a part needs OpenCASCADE."""
+    stepped = planes.stepped()
+    left = cut_in_kernel(source, PartPlane(stepped.normal, float(stepped.levels[0]), planes.near), whole, crossed)
+    failed = {name: bare_error(name) for name in crossed if name in left.bare}
+    if failed and not left.cut:
+        raise next(iter(failed.values()))
+    if left.source is None:
+        return None
+    return CutSource(left.source, {part.name: part.product for part in left.source.parts}, left.cut, failed=failed)
 
 
 def _left_of(source: BrepSource, planes: Planes, whole: set[str], crossed: set[str]) -> _Left:

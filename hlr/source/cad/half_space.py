@@ -1,4 +1,6 @@
-"""Shapes cut by planes, by OpenCASCADE: what lies on one side is taken away, and solids are closed there."""
+"""Shapes cut by planes, by OpenCASCADE: what lies on one side is taken away, and solids are closed there.
+
+It cuts what the kernel does not (`hlr.source.cad.kernel_cut`): open surfaces, by planes that step, hard cases."""
 
 from __future__ import annotations
 
@@ -26,7 +28,7 @@ LOOSER = (1e-8, 1e-7, 1e-6)
 
 
 class UncuttableError(SourceError):
-    """A shape that OpenCASCADE cannot cut. why, cure: what its message says."""
+    """A shape that cannot be cut. why, cure: what its message says."""
 
     def __init__(self, name: str, why: str, cure: str) -> None:
         super().__init__(
@@ -37,6 +39,11 @@ class UncuttableError(SourceError):
     def of(self, name: str) -> UncuttableError:
         """The same of another part of this shape."""
         return UncuttableError(name, self.why, self.cure)
+
+
+def bare_error(name: str) -> UncuttableError:
+    """That of a part whose faces are triangles alone."""
+    return UncuttableError(name, "its faces are triangles without surfaces", "export it as a solid or as a mesh")
 
 
 def cut_away(leaves: Sequence[Leaf], origin: Floats, normal: Floats) -> list[Leaf]:
@@ -79,8 +86,7 @@ def _cut(shape: Any, planes: Stepped, origin: Floats, name: str) -> Any | None:
     if low >= highest - NEAR * size:
         return None
     if not has_surfaces(shape):
-        why = "its faces are triangles without surfaces"
-        raise UncuttableError(name, why, "export it as a solid or as a mesh")
+        raise bare_error(name)
     check = CutCheck(shape, planes, size)
     left = _cut_by_block(shape, _before(planes, origin, box, size), check, size)
     if left is _FAILED and not len(planes.steps):

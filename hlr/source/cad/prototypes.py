@@ -17,7 +17,10 @@ class Prototypes:
     """Prototypes as a binary dump. OpenCASCADE is loaded only where `shapes` is asked for.
 
     dump: OpenCASCADE's binary dump of a compound of all prototypes.
+    in_opencascade: whether OpenCASCADE can have them as shapes.
     """
+
+    in_opencascade = True
 
     def __init__(self, dump: bytes, counts: Ints | None = None, boxes: Floats | None = None) -> None:
         """Args: counts, boxes: where they are known already."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -52,12 +53,14 @@ class Tessellator:
         faults = MeshingFaults(turned=[number for number, _ in meshed.turned()], torn=dict(meshed.torn()))
         if not failed:
             return faults
-        # Shapes from the dump: a model from the cache has no others, and must give the same triangles.
-        shapes = self._prototypes.shapes_from_dump
-        faces = faces_of([shapes[number] for number in self._chosen], failed)
+        faces: dict[int, Any] = dict.fromkeys(failed)
+        if self._prototypes.in_opencascade:
+            # Shapes from the dump: a model from the cache has no others, and must give the same triangles.
+            shapes = self._prototypes.shapes_from_dump
+            faces = faces_of([shapes[number] for number in self._chosen], failed)
         for number, face in sorted(faces.items()):
             give_up = len(faults.lost) >= MAX_FAILED_RESCUES
-            if not give_up and rescue(meshed, number, face, deflection, angle):
+            if not give_up and face is not None and rescue(meshed, number, face, deflection, angle):
                 faults.rescued.append(number)
             elif not give_up and meshed.fill(number, deflection, angle):
                 faults.crossed.append(number)

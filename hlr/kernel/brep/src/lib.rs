@@ -3,6 +3,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod assemble;
+pub mod body;
 pub mod bounds;
 pub mod certificate;
 pub mod classes;
@@ -10,6 +11,7 @@ pub mod continued;
 mod copied_points;
 pub mod copies;
 pub mod crossed;
+pub mod cut;
 pub mod divided;
 mod each_face;
 pub mod edges;

@@ -74,7 +74,7 @@ impl Model {
     }
 
     /// Classifies the edges of all parts. Where the class changes along an edge, its polyline gets a corner.
-    fn classify(&mut self) {
+    pub(crate) fn classify(&mut self) {
         let shapes = Shapes { edges: &self.edges, faces: &self.faces, curves2: &self.curves2 };
         let of_part = |part: &PartTopology| -> Vec<Classes> {
             (0..part.edges.len()).into_par_iter().map(|edge| classes(shapes, part, edge)).collect()

@@ -11,6 +11,7 @@ pub type Vertex = (u32, u32);
 pub const NO_VERTEX: u32 = 1 << 31;
 
 /// An underlying edge, in its own frame.
+#[derive(Clone)]
 pub struct Edge {
     /// The curve in space; None if only the curves on surfaces are known.
     pub curve: Option<Curve>,
@@ -34,6 +35,7 @@ pub struct Edge {
 }
 
 /// An edge's curves in (u, v) of a surface, one for each sense where the edge is a seam.
+#[derive(Clone)]
 pub struct OnSurface {
     pub surface: usize,
     pub location: u32,
@@ -42,6 +44,7 @@ pub struct OnSurface {
 }
 
 /// An underlying face in its own frame, with forward orientation.
+#[derive(Clone)]
 pub struct Face {
     pub record: Option<SurfaceRecord>,
     pub surface: Option<Surface>,

@@ -39,7 +39,7 @@ type PieceFacts = (usize, bool, Option<Vec<f64>>);
 
 /// Parts, faces and edges of a dump, each underlying face and edge once.
 #[pyclass(frozen)]
-pub struct BrepModel(Arc<Model>);
+pub struct BrepModel(pub(super) Arc<Model>);
 
 impl Drop for BrepModel {
     fn drop(&mut self) {

@@ -1,0 +1,136 @@
+//! A part in its own frame: each of its faces and edges where it stands, none of them shared with another part.
+
+use rustc_hash::FxHashMap;
+
+use crate::copies::mark_copies;
+use crate::explore::{Part, PlacedEdge, PlacedFace, PlacedUse};
+use crate::format::{Locations, SurfaceRecord, moved};
+use crate::geometry::curve::Curve;
+use crate::geometry::moved_surface;
+use crate::geometry::surface::Surface;
+use crate::model::Model;
+use crate::part_topology::part_topology;
+use crate::shapes::{Edge, Face, Use, Vertex};
+
+/// A face of a body. `of`: its number in the part that it comes from; None: a cut has made it.
+#[derive(Clone)]
+pub struct BodyFace {
+    pub face: Face,
+    pub reversed: bool,
+    pub of: Option<u32>,
+}
+
+/// Faces and edges in the order of the part's maps. Vertices are numbers with location 0.
+#[derive(Clone, Default)]
+pub struct Body {
+    pub edges: Vec<Edge>,
+    pub faces: Vec<BodyFace>,
+    pub curves2: Vec<Option<Curve>>,
+    pub solids: usize,
+}
+
+impl Body {
+    /// A part of a model.
+    ///
+    /// # Errors
+    /// Why it cannot be written in its own frame.
+    pub fn of_part(model: &Model, number: usize) -> Result<Body, &'static str> {
+        let topology = &model.topology[number];
+        let mut vertices: FxHashMap<Vertex, u32> = FxHashMap::default();
+        let mut vertex = |key: Vertex| {
+            let next = vertices.len() as u32;
+            (*vertices.entry(key).or_insert(next), 0)
+        };
+        let mut edges = Vec::with_capacity(topology.edges.len());
+        for placed in &topology.edges {
+            let mut edge = model.edges[placed.edge as usize].clone();
+            edge.ends = placed.ends.map(|end| Some(vertex(end)));
+            edge.on.clear();
+            edge.joints.clear();
+            edge.original = None;
+            if let Some(place) = &placed.place {
+                if edge.only_on.is_some() {
+                    return Err("an edge has no curve in space");
+                }
+                edge.curve = edge.curve.map(|curve| curve.moved(place));
+                edge.end_points = edge.end_points.map(|point| point.map(|p| moved(place, &p)));
+                edge.polygon = edge.polygon.map(|points| points.iter().map(|p| moved(place, p)).collect());
+            }
+            edges.push(edge);
+        }
+        let mut curves2: Vec<Option<Curve>> = Vec::new();
+        let mut numbers: FxHashMap<usize, usize> = FxHashMap::default();
+        let mut curve2 = |number: usize| {
+            *numbers.entry(number).or_insert_with(|| {
+                curves2.push(model.curves2[number].clone());
+                curves2.len() - 1
+            })
+        };
+        for edge in &mut edges {
+            if let Some((curve, _)) = &mut edge.only_on {
+                *curve = curve2(*curve);
+            }
+        }
+        let mut faces = Vec::with_capacity(topology.faces.len());
+        for (of, placed) in (0..).zip(&topology.faces) {
+            let own = &model.faces[placed.face as usize];
+            let mut face = Face { wires: Vec::with_capacity(own.wires.len()), no_area: false, ..own.clone() };
+            if let Some(place) = &placed.place {
+                if own.own.is_some() {
+                    return Err("a face is made of triangles");
+                }
+                let record = own.record.as_ref().and_then(|r| {
+                    Some(SurfaceRecord { kind: r.kind, data: moved_surface::moved(r.kind, &r.data, place)? })
+                });
+                face.surface = record.as_ref().and_then(|r| Surface::read(r.kind, &r.data));
+                face.record = record;
+            }
+            let mut uses = placed.uses.iter();
+            for wire in &own.wires {
+                let mut found = Vec::with_capacity(wire.len());
+                for (used, &edge) in wire.iter().zip(&mut uses) {
+                    let placed = topology.edges.get(edge as usize).ok_or("an edge is missing")?;
+                    let ends = placed.ends.map(&mut vertex);
+                    let curve2 = used.curve2.map(|(curve, range)| (curve2(curve), range));
+                    found.push(Use { edge, location: 0, place: None, orientation: used.orientation, ends, curve2 });
+                }
+                face.wires.push(found);
+            }
+            faces.push(BodyFace { face, reversed: placed.reversed != placed.mirrored, of: Some(of) });
+        }
+        Ok(Body { edges, faces, curves2, solids: model.parts[number].solids })
+    }
+}
+
+/// A model of bodies, one part each. Without classes of edges it can be meshed, but not drawn.
+pub fn model_of(bodies: Vec<Body>, classified: bool) -> Model {
+    let (mut edges, mut faces, mut curves2, mut parts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for body in bodies {
+        let [edge, face, curve2] = [edges.len(), faces.len(), curves2.len()];
+        let mut part = Part { solids: body.solids, ..Part::default() };
+        part.edges.extend((0..body.edges.len()).map(|i| PlacedEdge { edge: (edge + i) as u32, location: 0 }));
+        for (i, mut own) in (0..).zip(body.faces) {
+            part.faces.push(PlacedFace { face: face as u32 + i, location: 0, reversed: own.reversed });
+            for used in own.face.wires.iter_mut().flatten() {
+                part.uses.push(PlacedUse { edge: used.edge, face: i, orientation: used.orientation });
+                used.edge += edge as u32;
+                used.curve2 = used.curve2.map(|(curve, range)| (curve2 + curve, range));
+            }
+            faces.push(own.face);
+        }
+        edges.extend(body.edges.into_iter().map(|mut own| {
+            own.only_on = own.only_on.map(|(curve, surface)| (curve2 + curve, surface));
+            own
+        }));
+        curves2.extend(body.curves2);
+        parts.push(part);
+    }
+    mark_copies(&mut faces, &mut edges);
+    let mut locations = Locations::none();
+    let topology = parts.iter().map(|part| part_topology(part, &faces, &edges, &mut locations)).collect();
+    let mut model = Model { locations, edges, faces, parts, topology, classes: Vec::new(), curves2 };
+    if classified {
+        model.classify();
+    }
+    model
+}

@@ -1,0 +1,181 @@
+//! Puts together what a plane leaves of a body: faces, new faces on the plane, and pieces that hang together.
+
+use rustc_hash::FxHashMap;
+
+use super::caps::caps;
+use super::plane::Plane;
+use super::regions::Regions;
+use super::section_curve::section_curve;
+use super::separate::separate;
+use super::shares::{Share, Shares, sense};
+use super::trace::Section;
+use crate::body::{Body, BodyFace};
+use crate::format::Orientation;
+use crate::shapes::{Edge, Face, Use};
+
+/// What is made so far. `on_plane` and `sums`: by edge, whether it lies on the plane, and how often faces use it in its
+/// sense, those against it subtracted.
+pub struct Made {
+    pub body: Body,
+    pub on_plane: Vec<bool>,
+    pub sums: Vec<i32>,
+}
+
+impl Made {
+    pub fn add_edge(&mut self, edge: Edge, on_plane: bool) -> u32 {
+        self.body.edges.push(edge);
+        self.on_plane.push(on_plane);
+        self.sums.push(0);
+        self.body.edges.len() as u32 - 1
+    }
+
+    pub fn add_face(&mut self, face: BodyFace) {
+        for used in face.face.wires.iter().flatten() {
+            self.sums[used.edge as usize] += sense(used.orientation, face.reversed);
+        }
+        self.body.faces.push(face);
+    }
+}
+
+/// The bodies that are left; None: nothing is.
+///
+/// # Errors
+/// Why they cannot be put together.
+pub fn assembled(shares: &Shares, plane: &Plane, size: f64) -> Result<Option<Vec<Body>>, &'static str> {
+    let body = Body { curves2: shares.body.curves2.clone(), ..Body::default() };
+    let mut made = Made { body, on_plane: Vec::new(), sums: Vec::new() };
+    let mut pieces = EdgePieces { shares, known: FxHashMap::default() };
+    for (own, share) in shares.body.faces.iter().zip(shares.shares) {
+        let faces: Vec<Vec<Vec<Use>>> = match share {
+            Share::Gone => continue,
+            Share::Whole => {
+                let of_wire = |wire: &Vec<Use>| wire.iter().flat_map(|used| pieces.uses(used, &mut made)).collect();
+                vec![own.face.wires.iter().map(of_wire).collect()]
+            }
+            Share::Part(found) => {
+                let (section, regions) = &**found;
+                let found = borders(&own.face, section, regions, &mut pieces, &mut made, plane, size)?;
+                found.into_iter().map(|wire| vec![wire]).collect()
+            }
+        };
+        for wires in faces {
+            made.add_face(BodyFace { face: Face { wires, ..own.face.clone() }, ..*own });
+        }
+    }
+    caps(&mut made, plane, size)?;
+    if made.body.faces.is_empty() {
+        return Ok(None);
+    }
+    separate(made.body, shares).map(Some)
+}
+
+/// The borders of what is left of a face, one for each region: all in one wire, whose edges are put in order when it is
+/// meshed.
+fn borders(
+    face: &Face,
+    section: &Section,
+    regions: &Regions,
+    pieces: &mut EdgePieces,
+    made: &mut Made,
+    plane: &Plane,
+    size: f64,
+) -> Result<Vec<Vec<Use>>, &'static str> {
+    let shares = pieces.shares;
+    let mut uses = vec![Vec::new(); regions.count as usize];
+    // Pieces with no region beside them: what is left there of the face has no area.
+    let mut flat = Vec::new();
+    for used in face.wires.iter().flatten() {
+        let degenerate = shares.body.edges[used.edge as usize].degenerate;
+        // Where the section ends at a pole, the line of the pole in (u, v) ends there, too: without an edge of its own, it
+        // is as long as it has to be.
+        if degenerate && section.runs.iter().any(|run| run.ends.contains(&used.ends[0].0)) {
+            continue;
+        }
+        let line = shares.guided.lines[used.edge as usize].as_ref().ok_or("an edge has no curve")?;
+        let kept = &shares.pieces[used.edge as usize].kept;
+        for (piece, own) in kept.iter().zip(pieces.uses(used, made)) {
+            match regions.of_piece(used, piece, line, degenerate) {
+                Some(region) => uses[region as usize].push(own),
+                None if !degenerate => flat.push(own),
+                None => {}
+            }
+        }
+    }
+    for &(edge, ahead) in &section.follows {
+        let orientation = if ahead { Orientation::Forward } else { Orientation::Reversed };
+        let own = face.wires.iter().flatten().find(|used| used.edge == edge).ok_or("an edge is missing")?;
+        let follow = pieces.uses(&Use { orientation, ..*own }, made);
+        let [follow] = &follow[..] else { return Err("an edge lies partly in the plane") };
+        let back = |used: &Use| sense(used.orientation, true) == sense(orientation, false);
+        let at = flat.iter().position(|used: &Use| used.edge == follow.edge && back(used));
+        flat.remove(at.ok_or("an edge lies partly in the plane")?);
+    }
+    match &mut uses[..] {
+        [one] => one.append(&mut flat),
+        _ if !flat.is_empty() => return Err("what is left of a face is too narrow"),
+        _ => {}
+    }
+    let surface = face.surface.as_ref().ok_or("a face has no surface")?;
+    for run in &section.runs {
+        let ends = run.ends.map(|vertex| pieces.shares.vertices[vertex as usize]);
+        let found = section_curve(surface, run, ends, plane, size)?;
+        let edge = Edge {
+            curve: Some(found.curve),
+            range: found.range,
+            tolerance: plane.near,
+            degenerate: false,
+            ends: run.ends.map(|vertex| Some((vertex, 0))),
+            end_points: ends.map(Some),
+            tangent: false,
+            on: Vec::new(),
+            polygon: None,
+            only_on: None,
+            joints: Vec::new(),
+            original: None,
+        };
+        let edge = made.add_edge(edge, true);
+        let curve2 = found.curve2.map(|curve| {
+            made.body.curves2.push(Some(curve));
+            (made.body.curves2.len() - 1, found.range)
+        });
+        let ends = run.ends.map(|vertex| (vertex, 0));
+        let own = Use { edge, location: 0, place: None, orientation: Orientation::Forward, ends, curve2 };
+        uses[run.region as usize].push(own);
+    }
+    Ok(uses)
+}
+
+/// The pieces of edges that are kept, each made once.
+struct EdgePieces<'a> {
+    shares: &'a Shares<'a>,
+    known: FxHashMap<(u32, usize), u32>,
+}
+
+impl EdgePieces<'_> {
+    /// The use of an edge by a face as uses of its pieces.
+    fn uses(&mut self, used: &Use, made: &mut Made) -> Vec<Use> {
+        let pieces = &self.shares.pieces[used.edge as usize];
+        let edge = &self.shares.body.edges[used.edge as usize];
+        let mut out = Vec::with_capacity(pieces.kept.len());
+        for (k, piece) in pieces.kept.iter().enumerate() {
+            let number = *self.known.entry((used.edge, k)).or_insert_with(|| {
+                let mut part = Edge { range: piece.range, ends: piece.ends.map(|v| Some((v, 0))), ..edge.clone() };
+                for (side, &vertex) in piece.ends.iter().enumerate() {
+                    let is_own = edge.ends[side] == Some((vertex, 0)) && piece.range[side] == edge.range[side];
+                    if !is_own {
+                        part.end_points[side] = Some(self.shares.vertices[vertex as usize]);
+                    }
+                }
+                made.add_edge(part, pieces.on)
+            });
+            let curve2 = used.curve2.map(|(curve, [first, last])| {
+                let rate = (last - first) / (edge.range[1] - edge.range[0]);
+                let whole = piece.range == edge.range;
+                let at = |t: f64| first + (t - edge.range[0]) * rate;
+                (curve, if whole { [first, last] } else { piece.range.map(at) })
+            });
+            out.push(Use { edge: number, ends: piece.ends.map(|vertex| (vertex, 0)), curve2, ..*used });
+        }
+        out
+    }
+}
