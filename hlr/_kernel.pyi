@@ -729,17 +729,26 @@ class BrepModel:
         """Meshes all faces. deflection: chord error; angle: turning angle, radians; progress: called with the share of
         faces that are done. Raises MemoryError where there would be more than 8 million points."""
 
-def cut_parts(
-    model: BrepModel, cuts: Sequence[tuple[int, Sequence[float], float, float]], kept: Sequence[int]
-) -> tuple[BrepModel, list[tuple[bool, bool, list[tuple[int, list[int]]]]]]:
-    """Cuts parts of a model by planes: what lies beyond them is taken away, and bodies are closed there.
+class CutParts:
+    """What planes have left of parts: what lies beyond them is taken away, and bodies are closed there.
 
-    cuts: for each cut a part, the plane's normal of length 1 in the part's frame, how far the plane lies along it, and
-    how close to it counts as on it; kept: parts that stay as they are. The new model has the parts `kept`, then the
-    pieces. Returned for each cut: whether the part was cut, whether it stays whole because its faces are triangles
-    without surfaces, and its pieces: number in the new model, and for each of its faces which face of the part it was
-    (-1: the cut has made it). Raises NotImplementedError with the reason where a part cannot be cut here.
+    cuts: for each cut a part of the model, the plane's normal of length 1 in the part's frame, how far the plane lies
+    along it, and how close to it counts as on it.
     """
+
+    def __new__(cls, model: BrepModel, cuts: Sequence[tuple[int, Sequence[float], float, float]]) -> CutParts: ...
+    @property
+    def found(self) -> list[tuple[str | None, bool, list[list[int]]]]:
+        """For each cut: why the part cannot be cut here, whether it was cut, and its pieces.
+
+        A piece is given as, for each of its faces, which face of the part it was; -1: the cut has made it.
+        """
+
+    def with_parts(self, parts: Sequence[tuple[BrepModel, int]]) -> BrepModel:
+        """The model of whole parts, each given as its model and its number there, and of all pieces behind them.
+
+        Raises NotImplementedError where a part cannot be written in its own frame.
+        """
 
 class BrepMesh:
     """The mesh of a model at one chord error (model units) and turning angle (radians)."""

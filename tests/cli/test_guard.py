@@ -76,9 +76,8 @@ def test_a_reader_that_crashes(patched, tmp_path, verb, body, reason):
 def test_a_section_that_crashes(tmp_path):
     program = (
         "import ctypes, hlr.source.cad.half_space as cutter; cutter.cut_away = lambda *_: ctypes.string_at(0)\n"
-        "from hlr.pipeline.section import sources; from hlr.source.cad.kernel_cut import NotHereError\n"
-        "def cannot(*_): raise NotHereError\n"
-        "sources.cut_in_kernel = cannot\n"
+        "from hlr.pipeline.section import sources; from hlr.source.cad.kernel_cut import KernelCut\n"
+        "sources.KernelCut = lambda source, _, crossed: KernelCut(source, None, crossed)\n"
         "from hlr.cli import main; main()"
     )
     model = Path(__file__).parents[1] / "data" / "freecad" / "box.step"

@@ -295,10 +295,8 @@ def test_equal_parts_that_a_plane_cuts_alike_are_cut_once(monkeypatch, in_kernel
     monkeypatch.setattr(half_space, "cut_away", lambda *asked: calls.append(1) or cut_away(*asked))
     if not in_kernel:
         opencascade_cuts(monkeypatch)
-    planes, cut_parts = [], _kernel.cut_parts
-    monkeypatch.setattr(
-        _kernel, "cut_parts", lambda model, cuts, kept: planes.append(cuts) or cut_parts(model, cuts, kept)
-    )
+    planes, cut_parts = [], _kernel.CutParts
+    monkeypatch.setattr(_kernel, "CutParts", lambda model, cuts: planes.append(cuts) or cut_parts(model, cuts))
     angle = cq.Workplane().polyline([(0, 0), (12, 0), (12, 4), (4, 4), (4, 10), (0, 10)]).close().extrude(20)
     row = cq.Assembly()
     places = [

@@ -16,7 +16,7 @@ import hlr
 from hlr import _kernel
 from hlr.source import open_source
 from hlr.source.cad.brep_source import BrepSource
-from hlr.source.cad.kernel_cut import PartPlane, cut_in_kernel
+from hlr.source.cad.kernel_cut import KernelCut, PartPlane
 from hlr.source.cad.prototypes import LivePrototypes
 from hlr.source.cad.source_builder import with_appearance
 from hlr.source.model import Appearance
@@ -32,8 +32,17 @@ def model_of(*shapes):
 def cut(shape, normal, level):
     """What the kernel leaves of a shape: the model of its pieces, whether it was cut, and its pieces."""
     normal = np.array(normal, float) / np.linalg.norm(normal)
-    model, [(is_cut, _, pieces)] = _kernel.cut_parts(model_of(shape), [(0, normal.tolist(), level, NEAR)], [])
-    return model, is_cut, pieces
+    cut = _kernel.CutParts(model_of(shape), [(0, normal.tolist(), level, NEAR)])
+    [(why, is_cut, pieces)] = cut.found
+    assert why is None
+    return cut.with_parts([] if is_cut else [(model_of(shape), 0)]), is_cut, pieces
+
+
+def why_not(shape, normal, level):
+    """Why the kernel does not cut a shape."""
+    [(why, is_cut, pieces)] = _kernel.CutParts(model_of(shape), [(0, normal, level, NEAR)]).found
+    assert not is_cut and not pieces
+    return why
 
 
 def volumes(model, deflection=1e-4):
@@ -115,16 +124,15 @@ HALF_TORUS = math.pi**2 * 10 * 9
     ],
 )
 def test_what_is_left_has_its_volume(shape, normal, level, volume):
-    model, is_cut, pieces = cut(shape, normal, level)
+    model, is_cut, _ = cut(shape, normal, level)
     assert sum(volumes(model)) == pytest.approx(volume or 0.0, rel=2e-4)
-    assert bool(pieces) == (volume is not None)
     assert is_cut == (volume is None or volume < shape.Volume() - 1e-6)
 
 
 def test_faces_know_which_they_were():
     # The plane lies at the height of no face: the lower half of each face beside it stays, and one face is new.
-    model, _, [(part, of)] = cut(box(), (0, 0, 1), 1)
-    assert (part, sorted(of)) == (0, [-1, 0, 1, 2, 3, 4]) and of[-1] == -1
+    model, _, [of] = cut(box(), (0, 0, 1), 1)
+    assert sorted(of) == [-1, 0, 1, 2, 3, 4] and of[-1] == -1
     assert model.counts().tolist() == [[6, 12, 1]]
 
 
@@ -141,29 +149,43 @@ def test_pieces_and_cavities():
 
 
 def test_parts_that_stay_and_parts_that_are_cut_share_a_model():
-    model, found = _kernel.cut_parts(
-        model_of(box(), ROD, BALL), [(1, (0.0, 0.0, 1.0), 5.0, NEAR), (0, (1.0, 0.0, 0.0), -2.0, NEAR)], [2]
-    )
-    assert [pieces for _, _, pieces in found] == [[(1, [0, 1, -1])], [(2, [0, 2, 3, 4, 5, -1])]]
-    assert volumes(model) == pytest.approx([500 / 3 * math.pi, 125 * math.pi, 300], rel=1e-4)
+    bodies = model_of(box(), ROD, BALL)
+    planes = [(1, (0.0, 0.0, 1.0), 5.0, NEAR), (0, (1.0, 0.0, 0.0), -2.0, NEAR), (2, (1.0, 0.0, 0.0), 6.0, NEAR)]
+    cut = _kernel.CutParts(bodies, planes)
+    assert cut.found == [(None, True, [[0, 1, -1]]), (None, True, [[0, 2, 3, 4, 5, -1]]), (None, False, [])]
+    model = cut.with_parts([(bodies, 2), (model_of(ROD), 0)])
+    assert volumes(model) == pytest.approx([500 / 3 * math.pi, 250 * math.pi, 125 * math.pi, 300], rel=1e-4)
 
 
-def test_planes_are_checked():
+def test_planes_and_parts_are_checked():
     for plane in [((0.0, 0.0, math.nan), 0.0, NEAR), ((0.0, 0.0, 1.0), math.inf, NEAR), ((0.0, 0.0, 1.0), 0.0, 0.0)]:
         with pytest.raises(ValueError, match="planes must be finite"):
-            _kernel.cut_parts(model_of(box()), [(0, *plane)], [])
-    for cuts, kept in ([(1, (0.0, 0.0, 1.0), 0.0, NEAR)], []), ([], [1]):
-        with pytest.raises(ValueError, match=r"cuts|kept"):
-            _kernel.cut_parts(model_of(box()), cuts, kept)
+            _kernel.CutParts(model_of(box()), [(0, *plane)])
+    with pytest.raises(ValueError, match="cuts"):
+        _kernel.CutParts(model_of(box()), [(1, (0.0, 0.0, 1.0), 0.0, NEAR)])
+    with pytest.raises(ValueError, match="parts"):
+        _kernel.CutParts(model_of(box()), []).with_parts([(model_of(box()), 1)])
 
 
 def test_what_is_no_body_is_left_to_opencascade():
     open_box = cq.Shell.makeShell(cq.Workplane().box(1, 1, 1).faces("#Z").vals())
-    with pytest.raises(NotImplementedError, match="part 0: it is no closed body"):
-        cut(open_box, (0, 0, 1), 0)
+    assert why_not(open_box, (0, 0, 1), 0) == "it is no closed body"
     inside_out = cq.Shape.cast(box().wrapped.Reversed())
-    with pytest.raises(NotImplementedError, match=r"inside out|volume"):
-        cut(inside_out, (0, 0, 1), 0)
+    assert why_not(inside_out, (0, 0, 1), 0) == "it is turned inside out"
+
+
+def test_each_part_is_cut_by_what_can_cut_it():
+    parts = cq.Assembly()
+    sides = cq.Shell.makeShell(cq.Workplane().box(10, 10, 10).translate((40, 0, 0)).faces("#Z").vals())
+    for name, body in (("ball", BALL), ("sides", sides), ("far", box().moved(cq.Location((0, 30, 0))))):
+        parts.add(body, name=name)
+    source = open_source(parts)
+    cut = KernelCut(source, PartPlane(np.array([0.0, -1.0, 0.0]), 0.0, NEAR), ["ball", "sides"])
+    assert cut.failed == {"sides": "it is no closed body"} and cut.cut == {"ball"}
+    drawing = hlr.draw(parts, "front", section=0)
+    assert [part.name for part in drawing.parts] == ["ball", "sides", "far"]
+    assert [drawing.parts[k].name for k in drawing.section.parts] == ["ball"]
+    assert sum(line.part == 1 and line.kind != "hatch" for line in drawing.visible) > 2
 
 
 def wavy():
@@ -261,9 +283,9 @@ def test_faces_that_are_left_keep_their_colours():
     # The faces at x = -5, x = 5, y = -5 and so on. The second one is lost.
     coloured = with_appearance(part, Appearance(None, {1: red, 3: red}))
     source = BrepSource("box", "object", [coloured], whole.prototypes)
-    left = cut_in_kernel(source, PartPlane(np.array([1.0, 0.0, 0.0]), 0.0, NEAR), [], [part.name])
-    assert left.cut == {part.name} and not left.bare
-    assert left.source.appearances() == {part.name: Appearance(None, {2: red})}
+    cut = KernelCut(source, PartPlane(np.array([1.0, 0.0, 0.0]), 0.0, NEAR), [part.name])
+    assert cut.cut == {part.name} and not cut.failed
+    assert cut.joined([], None).appearances() == {part.name: Appearance(None, {2: red})}
 
 
 def test_a_section_of_a_file_in_the_cache_needs_no_opencascade(tmp_path):

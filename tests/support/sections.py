@@ -4,7 +4,7 @@ import cadquery as cq
 import numpy as np
 
 import hlr
-from hlr.source.cad.kernel_cut import NotHereError
+from hlr.source.cad.kernel_cut import KernelCut
 
 WIDTH, DEPTH, HEIGHT, RADIUS = 60.0, 30.0, 40.0, 10.0
 
@@ -47,7 +47,4 @@ def opencascade_cuts(monkeypatch):
     """Sections are cut by OpenCASCADE, as where the kernel cannot."""
     from hlr.pipeline.section import sources
 
-    def cannot(*_):
-        raise NotHereError
-
-    monkeypatch.setattr(sources, "cut_in_kernel", cannot)
+    monkeypatch.setattr(sources, "KernelCut", lambda source, _, crossed: KernelCut(source, None, crossed))

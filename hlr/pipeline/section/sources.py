@@ -14,7 +14,7 @@ from hlr.errors import OptionError, SourceError
 from hlr.pipeline.section.plane import Planes
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.half_space import UncuttableError, bare_error
-from hlr.source.cad.kernel_cut import SAME, NotHereError, PartPlane, cut_in_kernel
+from hlr.source.cad.kernel_cut import BARE, SAME, KernelCut, NotHereError, PartPlane
 from hlr.source.cad.parts import Leaf, Part
 from hlr.source.mesh.mesh_source import MeshSource
 from hlr.source.model import Source
@@ -104,9 +104,8 @@ def _cut_brep(source: BrepSource, planes: Planes, whole: list[str], crossed: lis
 
     Raises UncuttableError where parts are to be cut, and none can be.
     """
-    if not planes.steps:
-        with suppress(NotHereError):
-            return _cut_in_kernel(source, planes, whole, crossed)
+    with suppress(NotHereError):
+        return _joined(source, planes, whole, crossed)
     left = _left_of(source, planes, set(whole), set(crossed))
     if left.failed and not left.cut:
         raise next(iter(left.failed.values()))
@@ -117,16 +116,27 @@ def _cut_brep(source: BrepSource, planes: Planes, whole: list[str], crossed: lis
     return CutSource(built, whose, frozenset(left.cut), failed=left.failed)
 
 
-def _cut_in_kernel(source: BrepSource, planes: Planes, whole: list[str], crossed: list[str]) -> CutSource | None:
-    """The same in the kernel. Raises NotHereError where a part needs OpenCASCADE."""
+def _joined(source: BrepSource, planes: Planes, whole: list[str], crossed: list[str]) -> CutSource | None:
+    """The same: cut by the kernel, and by OpenCASCADE what the kernel does not cut.
+
+    Raises NotHereError where the kernel cannot put the two together.
+    """
     stepped = planes.stepped()
-    left = cut_in_kernel(source, PartPlane(stepped.normal, float(stepped.levels[0]), planes.near), whole, crossed)
-    failed = {name: bare_error(name) for name in crossed if name in left.bare}
-    if failed and not left.cut:
-        raise next(iter(failed.values()))
-    if left.source is None:
+    plane = None if planes.steps else PartPlane(stepped.normal, float(stepped.levels[0]), planes.near)
+    own = KernelCut(source, plane, crossed)
+    failed = {name: bare_error(name) for name, why in own.failed.items() if why == BARE}
+    rest = [name for name in crossed if name not in failed and name not in own.known]
+    left = _left_of(source, planes, set(), set(rest)) if rest else _Left()
+    failed |= left.failed
+    cut = own.cut | left.cut
+    if failed and not cut:
+        raise next(error for name in source.names() if (error := failed.get(name)))
+    others = _rebuilt(source, left) if left.leaves else None
+    built = own.joined([*whole, *(name for name in failed if name not in left.failed)], others)
+    if built is None:
         return None
-    return CutSource(left.source, {part.name: part.product for part in left.source.parts}, left.cut, failed=failed)
+    order = {name: failed[name] for name in source.names() if name in failed}
+    return CutSource(built, {part.name: part.product for part in built.parts}, cut, failed=order)
 
 
 def _left_of(source: BrepSource, planes: Planes, whole: set[str], crossed: set[str]) -> _Left:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -19,28 +20,17 @@ from hlr.source.model import Appearance
 SAME = 12
 """Decimals of directions, and of heights over the size of a model: planes that agree in them are the same."""
 
+BARE = "its faces are triangles without surfaces"
+"""Why the kernel does not cut a part which nothing else cuts either."""
+
 
 class NotHereError(Exception):
-    """A part that the kernel cannot cut. The message says why."""
-
-
-@dataclass(frozen=True, slots=True)
-class Left:
-    """What a plane leaves of a source.
-
-    source  None where nothing is left
-    cut     names of the parts that it has cut
-    bare    names of those that cannot be cut, because their faces are triangles without surfaces: they stay whole
-    """
-
-    source: BrepSource | None
-    cut: frozenset[str]
-    bare: frozenset[str]
+    """A model that the kernel cannot put together. The message says why."""
 
 
 @dataclass(frozen=True, slots=True)
 class PartPlane:
-    """A plane in the frame of a prototype. normal (3,) of length 1; level: along it; near: what counts as on it."""
+    """A plane in the frame of a part. normal (3,) of length 1; level: along it; near: what counts as on it."""
 
     normal: Floats
     level: float
@@ -53,69 +43,105 @@ class PartPlane:
         return PartPlane(turned / scale, float(self.level - transform[:3, 3] @ self.normal) / scale, self.near / scale)
 
 
+class KernelCut:
+    """What a plane leaves of some parts of a source. Equal parts that it cuts alike are cut once.
+
+    failed  why parts are not cut here, by name
+    cut     names of the parts that it cuts
+    known   names of all those of which it says what is left
+    """
+
+    def __init__(self, source: BrepSource, plane: PartPlane | None, crossed: Collection[str]) -> None:
+        """Args: crossed: names of the parts that the plane may cut; plane: None: no part is cut here."""
+        self._source = source
+        self._number: dict[str, int] = {}
+        size = float(np.linalg.norm(np.subtract(*source.bounds())))
+        keys: dict[tuple[float, ...], int] = {}
+        cuts: list[tuple[int, list[float], float, float]] = []
+        for part in source.parts:
+            if plane is not None and part.name in crossed:
+                own = plane.before(part.transform)
+                key = part.prototype, *np.round([*own.normal, own.level / size], SAME).tolist()
+                self._number[part.name] = keys.setdefault(key, len(keys))
+                if len(keys) > len(cuts):
+                    cuts.append((part.prototype, own.normal.tolist(), own.level, own.near))
+        self._parts = _kernel.CutParts(source.prototypes.model, cuts)
+        found = {name: self._parts.found[number] for name, number in self._number.items()}
+        self.failed = {name: why for name, (why, _, _) in found.items() if why is not None}
+        self.known = frozenset(found.keys() - self.failed.keys())
+        self.cut = frozenset(name for name, (_, is_cut, _) in found.items() if is_cut)
+
+    def joined(self, whole: Collection[str], others: BrepSource | None) -> BrepSource | None:
+        """A source of what is left, and of other parts; None where that is nothing.
+
+        whole: names of the parts that stay as they are; others: pieces of more of them, by their products
+
+        Raises:
+            NotHereError: a part has no frame of its own.
+        """
+        models = [self._source.prototypes] if others is None else [self._source.prototypes, others.prototypes]
+        kept: dict[tuple[int, int], int] = {}
+        placed: list[tuple[Part, tuple[int, int] | int]] = []
+        looks, names = self._source.appearances(), set(self._source.names())
+        first: list[int] = [0]
+        for _, _, pieces in self._parts.found:
+            first.append(first[-1] + len(pieces))
+        for part in self._source.parts:
+            stays = part.name in whole or part.name in self.known - self.cut
+            if stays:
+                placed.append((replace(part, product=part.name), (0, part.prototype)))
+            elif part.name in self.cut:
+                number = self._number[part.name]
+                pieces = self._parts.found[number][2]
+                for k, faces in enumerate(pieces):
+                    name = part.name if len(pieces) == 1 else _unique(f"{part.name}:{k + 1}", names)
+                    piece = with_appearance(replace(part, name=name, product=part.name), _look(looks[part.name], faces))
+                    placed.append((piece, first[number] + k))
+            elif others is not None:
+                own = [other for other in others.parts if other.product == part.name]
+                placed += [(other, (1, other.prototype)) for other in own]
+        if not placed:
+            return None
+        for _, at in placed:
+            if isinstance(at, tuple):
+                kept.setdefault(at, len(kept))
+        try:
+            model = self._parts.with_parts([(models[of].model, number) for of, number in kept])
+        except NotImplementedError as error:
+            raise NotHereError(str(error)) from None
+        shapes = [lambda of=of, number=number: models[of].shapes_from_dump[number] for of, number in kept]
+        parts = [replace(part, prototype=kept[at] if isinstance(at, tuple) else len(kept) + at) for part, at in placed]
+        found = BrepSource(
+            self._source.name, self._source.kind, parts, CutPrototypes(model, shapes), self._source.notes
+        )
+        found.choice, found.reading = self._source.choice, self._source.reading
+        return found
+
+
 class CutPrototypes(Prototypes):
-    """Prototypes that a plane has cut. The kernel alone has them: OpenCASCADE meshes none of their faces."""
+    """Prototypes of which the kernel has cut some, those behind the others."""
 
-    in_opencascade = False
-
-    def __init__(self, model: _kernel.BrepModel) -> None:
-        self.model = model
+    def __init__(self, model: _kernel.BrepModel, shapes: Sequence[Callable[[], Any]]) -> None:
+        """Args: shapes: find the shapes of OpenCASCADE of those that are not cut."""
+        self.model, self._whole = model, shapes
 
     @property
     def dump(self) -> bytes:  # type: ignore[override]
         """They have none. Raises SourceError."""
         raise SourceError("parts that a section has cut are not shapes of OpenCASCADE.")
 
+    def failed_faces(self, chosen: Sequence[int], failed: Collection[int]) -> dict[int, Any]:
+        """As of `Prototypes`; None for faces that only the kernel has."""
+        from hlr.source.cad.rescue import face_in_part
 
-def cut_in_kernel(source: BrepSource, plane: PartPlane, whole: Collection[str], crossed: Collection[str]) -> Left:
-    """A source without what lies beyond a plane; parts of names that are not given lie there.
-
-    whole, crossed: names of the parts that stay as they are, and of those that the plane may cut
-
-    Raises:
-        NotHereError: the kernel cannot cut a part.
-    """
-    size = float(np.linalg.norm(np.subtract(*source.bounds())))
-    stay, keys = set(whole), set(crossed)
-    kept: dict[int, int] = {}
-    cuts: dict[tuple[float, ...], int] = {}
-    planes: list[tuple[int, list[float], float, float]] = []
-    of_part: dict[str, int] = {}
-    for part in source.parts:
-        if part.name in stay:
-            of_part[part.name] = kept.setdefault(part.prototype, len(kept))
-        elif part.name in keys:
-            own = plane.before(part.transform)
-            key = part.prototype, *np.round([*own.normal, own.level / size], SAME).tolist()
-            of_part[part.name] = cuts.setdefault(key, len(cuts))
-            if of_part[part.name] == len(planes):
-                planes.append((part.prototype, own.normal.tolist(), own.level, own.near))
-    try:
-        model, found = _kernel.cut_parts(source.prototypes.model, planes, list(kept))
-    except NotImplementedError as error:
-        raise NotHereError(str(error)) from None
-    looks = source.appearances()
-    parts: list[Part] = []
-    names: set[str] = {part.name for part in source.parts}
-    for part in source.parts:
-        if part.name in stay:
-            parts.append(_as(part, part.name, of_part[part.name], looks[part.name]))
-        elif part.name in keys:
-            is_cut, _, pieces = found[of_part[part.name]]
-            for number, (prototype, faces) in enumerate(pieces, 1):
-                name = part.name if len(pieces) == 1 else _unique(f"{part.name}:{number}", names)
-                parts.append(_as(part, name, prototype, _look(looks[part.name], faces) if is_cut else looks[part.name]))
-    cut, bare = (frozenset(name for name in keys & of_part.keys() if found[of_part[name]][which]) for which in (0, 1))
-    if not parts:
-        return Left(None, cut, bare)
-    left = BrepSource(source.name, source.kind, parts, CutPrototypes(model), source.notes)
-    left.choice, left.reading = source.choice, source.reading
-    return Left(left, cut, bare)
-
-
-def _as(part: Part, name: str, prototype: int, look: Appearance) -> Part:
-    """A piece of a part, in its place."""
-    return with_appearance(replace(part, name=name, product=part.name, prototype=prototype), look)
+        # Each part has its own faces, one part after the other.
+        ends = np.cumsum(self.counts[:, 0])
+        found: dict[int, Any] = {}
+        for face in failed:
+            part = int(np.searchsorted(ends, face, side="right"))
+            begin = int(ends[part - 1]) if part else 0
+            found[face] = face_in_part(self._whole[part](), face - begin) if part < len(self._whole) else None
+        return found
 
 
 def _look(look: Appearance, faces: list[int]) -> Appearance:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import _thread
 import io
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -17,10 +17,7 @@ class Prototypes:
     """Prototypes as a binary dump. OpenCASCADE is loaded only where `shapes` is asked for.
 
     dump: OpenCASCADE's binary dump of a compound of all prototypes.
-    in_opencascade: whether OpenCASCADE can have them as shapes.
     """
-
-    in_opencascade = True
 
     def __init__(self, dump: bytes, counts: Ints | None = None, boxes: Floats | None = None) -> None:
         """Args: counts, boxes: where they are known already."""
@@ -80,6 +77,14 @@ class Prototypes:
     def shapes(self) -> list[Any]:
         """(r,) TopoDS_Shape of each."""
         return self.shapes_from_dump
+
+    def failed_faces(self, chosen: Sequence[int], failed: Collection[int]) -> dict[int, Any]:
+        """By number in the model of the `chosen` prototypes, the TopoDS_Face of each face that failed."""
+        from hlr.source.cad.rescue import faces_of
+
+        # Shapes from the dump: a model from the cache has no others, and must give the same triangles.
+        shapes = self.shapes_from_dump
+        return faces_of([shapes[number] for number in chosen], set(failed))
 
 
 class LivePrototypes(Prototypes):

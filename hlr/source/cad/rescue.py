@@ -181,3 +181,22 @@ def faces_of(shapes: list[Any], numbers: set[int]) -> dict[int, Any]:
                     found[len(known)] = TopoDS.Face(shape)
                 known.add(underlying)
     return found
+
+
+def face_in_part(shape: Any, index: int) -> Any:
+    """The face with this index in the TopExp face map of a shape, as a TopoDS_Face in the frame of the shape."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_Transform
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+    from OCP.TopExp import TopExp
+    from OCP.TopLoc import TopLoc_Location
+    from OCP.TopoDS import TopoDS
+
+    from hlr.source.cad.occt_collections import new_collection
+
+    faces = new_collection("shape_map")
+    TopExp.MapShapes_s(shape, Kind.TopAbs_FACE, faces)
+    face = faces.FindKey(index + 1)
+    if not face.Location().IsIdentity():
+        move = face.Location().Transformation()
+        face = BRepBuilderAPI_Transform(face.Located(TopLoc_Location(), False), move, True).Shape()
+    return TopoDS.Face(face)

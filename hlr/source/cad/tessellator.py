@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from hlr.request.accuracy import EACH_SURFACE
 from hlr.request.options import Vector
 from hlr.source.cad.meshing_faults import MeshingFaults
 from hlr.source.cad.prototypes import Prototypes
-from hlr.source.cad.rescue import faces_of, rescue
+from hlr.source.cad.rescue import rescue
 from hlr.source.model import Curves, SurfaceRecords
 
 PLANARITY_SHARE = 1e-7
@@ -53,12 +52,8 @@ class Tessellator:
         faults = MeshingFaults(turned=[number for number, _ in meshed.turned()], torn=dict(meshed.torn()))
         if not failed:
             return faults
-        faces: dict[int, Any] = dict.fromkeys(failed)
-        if self._prototypes.in_opencascade:
-            # Shapes from the dump: a model from the cache has no others, and must give the same triangles.
-            shapes = self._prototypes.shapes_from_dump
-            faces = faces_of([shapes[number] for number in self._chosen], failed)
-        for number, face in sorted(faces.items()):
+        faces = self._prototypes.failed_faces(self._chosen, failed)
+        for number, face in sorted(faces.items(), key=lambda item: item[0]):
             give_up = len(faults.lost) >= MAX_FAILED_RESCUES
             if not give_up and face is not None and rescue(meshed, number, face, deflection, angle):
                 faults.rescued.append(number)

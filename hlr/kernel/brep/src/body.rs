@@ -76,9 +76,8 @@ impl Body {
             let own = &model.faces[placed.face as usize];
             let mut face = Face { wires: Vec::with_capacity(own.wires.len()), no_area: false, ..own.clone() };
             if let Some(place) = &placed.place {
-                if own.own.is_some() {
-                    return Err("a face is made of triangles");
-                }
+                let triangles = face.own.iter_mut().flat_map(|own| &mut own.points);
+                triangles.for_each(|p| *p = moved(place, p));
                 let record = own.record.as_ref().and_then(|r| {
                     Some(SurfaceRecord { kind: r.kind, data: moved_surface::moved(r.kind, &r.data, place)? })
                 });

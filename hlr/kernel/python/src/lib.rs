@@ -69,7 +69,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(brep_file::square_placement, m)?)?;
     m.add_class::<brep::BrepModel>()?;
     m.add_class::<brep::BrepMesh>()?;
-    m.add_function(wrap_pyfunction!(cut::cut_parts, m)?)?;
+    m.add_class::<cut::CutParts>()?;
     m.add_class::<parts::PartTables>()?;
     m.add_class::<parts::MeshFacts>()?;
     m.add_class::<parts::MeshScene>()?;

@@ -42,6 +42,9 @@ const GUIDE: f64 = 1e-4;
 /// Radians from chord to chord of that mesh.
 const GUIDE_ANGLE: f64 = 0.2;
 
+/// Why a part is not cut whose faces are triangles alone.
+pub const BARE: &str = "its faces are triangles without surfaces";
+
 /// What a plane leaves of a part.
 pub enum Cut {
     /// It does not reach beyond the plane.
@@ -49,8 +52,6 @@ pub enum Cut {
     Gone,
     /// Its pieces, one or several.
     Pieces(Vec<Body>),
-    /// It cannot be cut: its faces are triangles without surfaces.
-    Bare,
     /// It cannot be cut here: why.
     Failed(&'static str),
     Stopped,
@@ -71,7 +72,7 @@ fn try_cut(
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<Cut, &'static str> {
     if model.parts[part].faces.iter().any(|face| model.faces[face.face as usize].surface.is_none()) {
-        return Ok(Cut::Bare);
+        return Err(BARE);
     }
     let mut body = Body::of_part(model, part)?;
     if !is_closed(&body) {
