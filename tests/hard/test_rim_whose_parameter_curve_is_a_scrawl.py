@@ -105,3 +105,16 @@ def test_the_command_tells_all_this(tmp_path):
     done = command("info", "part.brep")
     assert NOTE.text in done.stdout + done.stderr
     assert json.loads(command("info", "part.brep", "--json").stdout)["notes"] == [NOTE.as_dict()]
+
+
+@pytest.mark.parametrize("loose", [False, True])
+def test_behind_the_plane_of_a_section_it_is_mended_as_well(loose):
+    """As a solid, and as faces that are placed within their part: there, too, the mended face has its part's frame."""
+    scrawl, place = scrawled_cylinder()[0], cq.Location(cq.Vector(20, 20, 0), cq.Vector(1, 1, 0), 40.0)
+    body = cq.Compound.makeCompound([face.moved(place) for face in scrawl.Faces()]) if loose else scrawl.moved(place)
+    parts = cq.Assembly().add(cq.Workplane().box(10, 10, 10), name="box").add(body, name="scrawl")
+    drawing = hlr.draw(parts, "front", section=0, scale=1)
+    assert [part.name for part in drawing.parts] == ["box", "scrawl"]
+    assert [drawing.parts[k].name for k in drawing.section.parts] == ["box"]
+    (note,) = drawing.notes
+    assert note.text.startswith('Part "scrawl": 1 of 3 faces was meshed by OpenCASCADE')
