@@ -725,9 +725,16 @@ class BrepModel:
         edge: numbers in the parts' TopExp edge maps.
         """
 
-    def mesh(self, deflection: float, angle: float, progress: Callable[[float], None] | None = None) -> BrepMesh:
+    def mesh(
+        self,
+        deflection: float,
+        angle: float,
+        progress: Callable[[float], None] | None = None,
+        most_steps: int = ...,
+    ) -> BrepMesh:
         """Meshes all faces. deflection: chord error; angle: turning angle, radians; progress: called with the share of
-        faces that are done. Raises MemoryError where there would be more than 8 million points."""
+        faces that are done; most_steps: limit on the work on one face, half a billion but for tests. Raises MemoryError
+        where there would be more than 8 million points."""
 
 class CutParts:
     """What planes have left of parts: what lies beyond them is taken away, and bodies are closed there.
@@ -761,6 +768,9 @@ class BrepMesh:
 
     def torn(self) -> list[tuple[int, float]]:
         """Faces whose surface folds over itself or jumps: number, and the chord error there (model units)."""
+
+    def unfinished(self) -> list[tuple[int, float]]:
+        """Faces that took too many steps: number, and the chord error of the mesh (model units), inf without a mesh."""
 
     def off_their_edges(self, most: float) -> list[tuple[int, float]]:
         """Faces whose edges are farther off their surface than `most` (model units): number, and how far."""

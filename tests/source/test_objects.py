@@ -117,6 +117,9 @@ def test_a_mesher_that_fails_on_one_part(monkeypatch):
         def torn(self):
             return []
 
+        def unfinished(self):
+            return []
+
         def fill(self, *given):
             return False
 

@@ -19,12 +19,14 @@ MAX_LISTED = 5
 class MeshingFaults:
     """Numbers of underlying faces.
 
-    lost      without triangles
-    rescued   meshed by OpenCASCADE's mesher, not by the kernel
-    crossed   neither mesher could: their outlines or holes cross or touch; meshed where these run around something
-    turned    a loop of the face has the wrong orientation; it was meshed as if it had the right one
-    torn      their surface folds over itself or jumps, and how far off the mesh may be there, in model units
-    off       their edges lie off their surface in the model itself, and how far, in model units: those where it shows
+    lost        without triangles
+    rescued     meshed by OpenCASCADE's mesher, not by the kernel
+    crossed     neither mesher could: their outlines or holes cross or touch; meshed where these run around something
+    turned      a loop of the face has the wrong orientation; it was meshed as if it had the right one
+    torn        their surface folds over itself or jumps, and how far off the mesh may be there, in model units
+    unfinished  their mesh took as many steps as it may before it was fine enough, and how far off it may be, in model
+                units
+    off         their edges lie off their surface in the model itself, and how far, in model units: those where it shows
     """
 
     lost: list[int] = field(default_factory=list)
@@ -32,16 +34,17 @@ class MeshingFaults:
     crossed: list[int] = field(default_factory=list)
     turned: list[int] = field(default_factory=list)
     torn: dict[int, float] = field(default_factory=dict)
+    unfinished: dict[int, float] = field(default_factory=dict)
     off: dict[int, float] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
-        return bool(self.lost or self.rescued or self.crossed or self.turned or self.torn)
+        return bool(self.lost or self.rescued or self.crossed or self.turned or self.torn or self.unfinished)
 
     def notes(self, part: str, face_shape: Ints) -> list[Note]:
         """Notes on a part. face_shape (f,): for each of its faces the number of the underlying face."""
-        lost, rescued, crossed, turned, torn = (
+        lost, rescued, crossed, turned, torn, unfinished = (
             np.flatnonzero(np.isin(face_shape, numbers)).tolist() if numbers else []
-            for numbers in (self.lost, self.rescued, self.crossed, self.turned, list(self.torn))
+            for numbers in (self.lost, self.rescued, self.crossed, self.turned, list(self.torn), list(self.unfinished))
         )
         of = f'Part "{part}": {{}} of {len(face_shape)} faces'
         notes = []
@@ -62,9 +65,13 @@ class MeshingFaults:
         if torn:
             one = len(torn) == 1
             has = "has a surface that folds over itself or jumps" if one else "have surfaces that fold or jump"
-            far = typed(max(self.torn[number] for number in set(face_shape[torn].tolist())), 2)
-            what = f"{has}, and may be {far} mm off there"
+            what = f"{has}, and may be {_farthest(self.torn, face_shape[torn])} mm off there"
             notes.append(Note("surfaces-torn", f"{of.format(len(torn))} {what} ({_listed(torn)})."))
+        if unfinished:
+            takes = "takes" if len(unfinished) == 1 else "take"
+            far = _farthest(self.unfinished, face_shape[unfinished])
+            what = f"{takes} too much work to be meshed as finely as needed, and may be {far} mm off"
+            notes.append(Note("faces-too-coarse", f"{of.format(len(unfinished))} {what} ({_listed(unfinished)})."))
         return notes
 
     def off_note(self, parts: Iterable[tuple[str, Ints]]) -> Note:
@@ -79,6 +86,11 @@ class MeshingFaults:
             found = f"{len(self.off)} faces lie {far} their own edges (the farthest is {where})"
         text = f"In the model itself {found}: lines there cannot be more exact than that."
         return Note("faces-off-edges", text)
+
+
+def _farthest(off: dict[int, float], numbers: Ints) -> str:
+    """How far the farthest of some underlying faces is off."""
+    return typed(max(off[number] for number in set(numbers.tolist())), 2)
 
 
 def _listed(faces: list[int]) -> str:

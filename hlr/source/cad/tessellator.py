@@ -1,7 +1,12 @@
-"""Tessellation of prototypes by the kernel; faces that it cannot mesh are meshed by OpenCASCADE, else mended."""
+"""Tessellation of prototypes by the kernel; faces that it cannot mesh are meshed by OpenCASCADE, else mended.
+
+OpenCASCADE is not asked for a face that took all the steps it may take: its mesher may work on it for minutes, and
+cannot be interrupted.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -48,10 +53,20 @@ class Tessellator:
 
     def _rescue_failed(self, meshed: _kernel.BrepMesh, deflection: float, angle: float) -> MeshingFaults:
         """Mesh the faces that the kernel could not: with OpenCASCADE, and else what their crossing loops enclose."""
-        failed = {number for number, _ in meshed.faults()}
-        faults = MeshingFaults(turned=[number for number, _ in meshed.turned()], torn=dict(meshed.torn()))
-        if not failed:
-            return faults
+        faults = MeshingFaults(turned=[number for number, _ in meshed.turned()])
+        given_up = [number for number, off in meshed.unfinished() if math.isinf(off)]
+        failed = {number for number, _ in meshed.faults()}.difference(given_up)
+        if failed:
+            self._rescue(meshed, failed, faults, deflection, angle)
+        faults.lost += given_up
+        # Of the crossing loops as well.
+        faults.torn = dict(meshed.torn())
+        faults.unfinished = {number: off for number, off in meshed.unfinished() if math.isfinite(off)}
+        return faults
+
+    def _rescue(
+        self, meshed: _kernel.BrepMesh, failed: set[int], faults: MeshingFaults, deflection: float, angle: float
+    ) -> None:
         faces = self._prototypes.failed_faces(self._chosen, failed)
         for number, face in sorted(faces.items(), key=lambda item: item[0]):
             give_up = len(faults.lost) >= MAX_FAILED_RESCUES
@@ -61,7 +76,6 @@ class Tessellator:
                 faults.crossed.append(number)
             else:
                 faults.lost.append(number)
-        return faults
 
     def records(self, numbers: Sequence[int]) -> SurfaceRecords:
         """The surfaces of the underlying faces with these numbers, in this order."""

@@ -209,6 +209,7 @@ fn ordered(
         normals: order.iter().map(|i| surface.and_then(|s| s.normal(pick(i))).unwrap_or([0.0; 3])).collect(),
         turned: Vec::new(),
         torn: 0.0,
+        unfinished: 0.0,
     };
     MeshedFace { mesh, nodes, ..MeshedFace::default() }
 }

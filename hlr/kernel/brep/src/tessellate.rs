@@ -24,15 +24,32 @@ const ROUNDS_UNCERTIFIED: usize = 6;
 /// Limit on the rounds for two chords that lie upon one another: no division parts such edges.
 const ROUNDS_UPON: usize = 4;
 /// Limit on the steps that one face takes in all rounds: 16 million triangles take half of them, most faces a few
-/// thousand. What takes more is left to another mesher.
-pub const MOST_STEPS: u64 = 1 << 29;
-/// Points of all edges, and of all faces: 16 million triangles, about 4 GB of a drawing.
-pub const MOST_POINTS: usize = 8_000_000;
+/// thousand. From half of them on, its mesh is drawn as it is by then.
+const MOST_STEPS: u64 = 1 << 29;
+/// Where they run out before there is any mesh, the face is meshed for a chord error so many times as large.
+const COARSER: f64 = 16.0;
+/// One of so many parts of the steps is for that, in each round anew: chords may be divided for the face on their other
+/// side.
+const PARTS: u64 = 16;
+/// Limit on the points of all edges and all faces: 16 million triangles, about 4 GB of a drawing.
+const MOST_POINTS: usize = 8_000_000;
 /// Chord error by the size of a face: below it, the wish is the reason that a face needs too many points. Above it, its
 /// surface is, and another mesher may fare better.
 const ABSURD: f64 = 1e-5;
 /// An edge with more corners is not divided any further.
 const MOST_CORNERS: usize = 100_000;
+
+/// Limits on a mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Points of all edges and all faces.
+    pub points: usize,
+    /// Steps that one face takes.
+    pub steps: u64,
+}
+
+/// The limits that hold but for tests.
+pub const LIMITS: Limits = Limits { points: MOST_POINTS, steps: MOST_STEPS };
 
 /// Why there is no mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,20 +85,19 @@ pub struct Watch<'a> {
     pub done: &'a AtomicUsize,
 }
 
-/// The mesh of a model for a chord error and a turning angle in radians, with at most `most_points` points, which is
-/// `MOST_POINTS` but for tests.
+/// The mesh of a model for a chord error and a turning angle in radians.
 pub fn tessellate(
     model: &Model,
     deflection: f64,
     angle: f64,
-    most_points: usize,
+    limits: Limits,
     watch: &Watch,
 ) -> Result<Tessellation, Ended> {
     let used = AtomicUsize::new(0);
-    let full = || used.load(Ordering::Relaxed) > most_points;
+    let full = || used.load(Ordering::Relaxed) > limits.points;
     let stopped = || full() || (watch.stopped)();
     let limited = Watch { stopped: &stopped, done: watch.done };
-    let made = meshed(model, deflection, angle, &used, MOST_STEPS, &limited);
+    let made = meshed(model, deflection, angle, &used, limits.steps, &limited);
     // Points are only ever added, and each edge and face has as many on any number of threads.
     if full() {
         return Err(Ended::TooFine);
@@ -106,7 +122,7 @@ fn extent(face: &Face, lines: &[Option<Polyline>]) -> f64 {
     (0..3).map(|k| (high[k] - low[k]).max(0.0).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The mesh; None if it was stopped. `used`: points so far. `most_steps`: `MOST_STEPS` but for tests.
+/// The mesh; None if it was stopped. `used`: points so far. `most_steps`: of one face.
 fn meshed(
     model: &Model,
     deflection: f64,
@@ -151,11 +167,19 @@ fn meshed(
                 let divisible = round < MOST_ROUNDS && !settled.contains(&i);
                 let same = round < ROUNDS_UPON;
                 let left = most_steps.saturating_sub(taken[i].load(Ordering::Relaxed));
-                let steps = Progress::new(watch.stopped, Some(Done { all: watch.done, face: &told[i] }), left);
+                let told = Some(Done { all: watch.done, face: &told[i] });
+                let steps = Progress::new(watch.stopped, told, left);
                 let face = &model.faces[i];
                 let tried =
                     steps.watched(|| try_face(model, face, &lines, deflection, angle, [divisible, same], &steps));
                 taken[i].fetch_add(steps.count(), Ordering::Relaxed);
+                let tried = match tried {
+                    Err(Interrupted::TooMuch) => {
+                        let few = Progress::half_spent(watch.stopped, told, most_steps / PARTS);
+                        few.watched(|| coarser(model, face, &lines, deflection, angle, &few))
+                    }
+                    tried => tried,
+                };
                 let tried = match tried {
                     Ok(tried) => tried,
                     Err(Interrupted::TooMuch) => failed(Fault::TooMuchWork, Vec::new()),
@@ -288,6 +312,7 @@ fn try_face(
             triangles: own.triangles.clone(),
             turned: Vec::new(),
             torn: 0.0,
+            unfinished: 0.0,
         };
         return Tried { face: MeshedFace { mesh, ..MeshedFace::default() }, coarse: Vec::new(), waits: false };
     }
@@ -332,44 +357,23 @@ fn try_face(
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const CYLINDER: &[u8] = include_bytes!("../tests/cylinder_4.bin");
-
-    /// The number of triangles, on so many threads.
-    fn triangles(threads: usize, deflection: f64, most_points: usize) -> Result<usize, Ended> {
-        let model = Model::read(CYLINDER, None).unwrap();
-        let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let made = pool.install(|| tessellate(&model, deflection, 0.5, most_points, &watch))?;
-        Ok(made.faces.iter().map(|face| face.mesh.triangles.len()).sum())
+/// Meshes a face for a larger chord error, as it is before points are inserted. Any fault is that of too much work.
+fn coarser(
+    model: &Model,
+    face: &Face,
+    lines: &[Option<Polyline>],
+    deflection: f64,
+    angle: f64,
+    steps: &Progress,
+) -> Tried {
+    let most = COARSER * deflection;
+    let mut tried = try_face(model, face, lines, most, angle, [false; 2], steps);
+    if tried.face.fault.is_some() {
+        return failed(Fault::TooMuchWork, Vec::new());
     }
-
-    #[test]
-    fn a_face_that_takes_too_many_steps_has_no_mesh_and_the_others_have() {
-        let model = Model::read(CYLINDER, None).unwrap();
-        let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
-        let faults = |most_steps| {
-            let made = meshed(&model, 1e-6, 0.5, &AtomicUsize::new(0), most_steps, &watch).unwrap();
-            made.faces.into_iter().map(|face| face.fault).collect::<Vec<_>>()
-        };
-        assert_eq!(faults(MOST_STEPS), [None, None, None]);
-        for threads in [1, 4] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            assert_eq!(pool.install(|| faults(10_000)), [Some(Fault::TooMuchWork), None, None]);
-        }
-    }
-
-    #[test]
-    fn a_mesh_with_too_many_points_is_refused_on_any_number_of_threads() {
-        for threads in [1, 4] {
-            assert!(triangles(threads, 1e-6, MOST_POINTS).unwrap() > 5_000);
-            for most in [0, 100, 2_000, 10_000] {
-                assert_eq!(triangles(threads, 1e-6, most), Err(Ended::TooFine));
-            }
-            assert_eq!(triangles(threads, 0.01, 1_000), triangles(1, 0.01, MOST_POINTS));
-        }
-    }
+    tried.face.mesh.unfinished = tried.face.mesh.unfinished.max(most);
+    tried
 }
+
+#[cfg(test)]
+mod tests;

@@ -22,12 +22,12 @@ use hlr_brep::foreign_mesh::{Border, ForeignMesh, with_foreign_mesh};
 use hlr_brep::format::{IDENTITY, Matrix};
 use hlr_brep::geometry::planar::is_flat;
 use hlr_brep::geometry::surface::Surface;
-use hlr_brep::mesh::{Interrupted, OF_A_FACE, Progress, points_inside};
+use hlr_brep::mesh::{Fault, Interrupted, OF_A_FACE, Progress, points_inside};
 use hlr_brep::model::Model;
 use hlr_brep::one_sphere::is_one_sphere;
 use hlr_brep::reach::{Placed, reach};
 use hlr_brep::shapes::Face;
-use hlr_brep::tessellate::{Ended, MOST_POINTS, MOST_STEPS, Tessellation, Watch, tessellate};
+use hlr_brep::tessellate::{Ended, LIMITS, Limits, MeshedFace, Tessellation, Watch, tessellate};
 use hlr_mesh::tables::Tables;
 
 type Records<'py> = (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<f64>>);
@@ -183,10 +183,17 @@ impl BrepModel {
         is_one_sphere(&self.0)
     }
 
-    /// Meshes all faces. `progress`: called with the share of faces that are done. A MemoryError: there would be more
-    /// points than the limit.
-    #[pyo3(signature = (deflection, angle, progress = None))]
-    fn mesh(&self, py: Python<'_>, deflection: f64, angle: f64, progress: Option<Py<PyAny>>) -> PyResult<BrepMesh> {
+    /// Meshes all faces. `progress`: called with the share of faces that are done; `most_steps`: of one face, other than
+    /// `LIMITS` has for tests alone. A MemoryError: there would be more points than the limit.
+    #[pyo3(signature = (deflection, angle, progress = None, most_steps = LIMITS.steps))]
+    fn mesh(
+        &self,
+        py: Python<'_>,
+        deflection: f64,
+        angle: f64,
+        progress: Option<Py<PyAny>>,
+        most_steps: u64,
+    ) -> PyResult<BrepMesh> {
         let positive = |x: f64| x > 0.0 && x.is_finite();
         if !positive(deflection) || !positive(angle) {
             return Err(PyValueError::new_err("deflection and angle must be positive"));
@@ -196,8 +203,9 @@ impl BrepModel {
             let share = done.load(Ordering::Relaxed) as f64 / (OF_A_FACE * model.faces.len().max(1)) as f64;
             progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (share,)).map(|_| ()))
         };
+        let limits = Limits { steps: most_steps, ..LIMITS };
         let work = |stopped: &(dyn Fn() -> bool + Sync)| {
-            tessellate(model, deflection, angle, MOST_POINTS, &Watch { stopped, done: &done })
+            tessellate(model, deflection, angle, limits, &Watch { stopped, done: &done })
         };
         // A face costs as much as many points.
         let inside = |face: &Face| face.surface.as_ref().map_or(Some(0), |s| points_inside(s, deflection, angle));
@@ -232,7 +240,7 @@ impl BrepMesh {
     /// Numbers of the faces without a mesh, each with the reason.
     fn faults(&self) -> Vec<(usize, String)> {
         let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
-        let of = |(i, face): (usize, &hlr_brep::tessellate::MeshedFace)| Some((i, face.fault.as_ref()?.to_string()));
+        let of = |(i, face): (usize, &MeshedFace)| Some((i, face.fault.as_ref()?.to_string()));
         meshed.faces.iter().enumerate().filter_map(of).collect()
     }
 
@@ -248,6 +256,17 @@ impl BrepMesh {
         let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
         let torn = meshed.faces.iter().map(|face| face.mesh.torn);
         torn.enumerate().filter(|&(_, torn)| torn > 0.0).collect()
+    }
+
+    /// Numbers of the faces that took as many steps as a face may take, each with the chord error that its mesh has
+    /// (model units): infinite where it has none.
+    fn unfinished(&self) -> Vec<(usize, f64)> {
+        let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
+        let far = |face: &MeshedFace| match face.fault {
+            Some(Fault::TooMuchWork) => f64::INFINITY,
+            _ => face.mesh.unfinished,
+        };
+        meshed.faces.iter().map(far).enumerate().filter(|&(_, far)| far > 0.0).collect()
     }
 
     /// Numbers of the faces whose edges are farther off their surface than `most` (model units), each with how far.
@@ -292,7 +311,7 @@ impl BrepMesh {
         expect_below("face", [face as i32].into_iter(), self.model.faces.len())?;
         let mut meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
         let found = run(py, FEW + 1, |stopped| {
-            let steps = Progress::new(stopped, None, MOST_STEPS);
+            let steps = Progress::new(stopped, None, LIMITS.steps);
             match steps.watched(|| with_crossed_loops(&self.model, &meshed, face, deflection, angle, &steps)) {
                 Ok(found) => Some(found),
                 Err(Interrupted::TooMuch) => Some(None),

@@ -8,7 +8,7 @@ use super::border_grid::BorderGrid;
 use super::delaunay::Delaunay;
 use super::draft::Draft;
 use super::face::{FaceLoops, Fault};
-use super::gap::{Bend, Corner, Gap, corner, gap};
+use super::gap::{Bend, Corner, Gap, corner, gap, off_plane};
 use super::lattice;
 use super::outline::Outline;
 use super::plane::distance2;
@@ -32,6 +32,8 @@ const MOST: usize = 8_000_000;
 /// Distance in the chart that new points keep from a chord, as a share of the chord's length. The smaller one is used
 /// only where the larger one leaves no place.
 const OFF: [f64; 2] = [0.2, 0.02];
+/// Triangles whose error is measured where no more points are inserted.
+const MEASURED: usize = 10_000;
 /// Share of the face's extent in (u, v) below which corners of a triangle never face apart on a sound surface.
 const TORN: f64 = 1e-3;
 
@@ -215,8 +217,9 @@ impl<'a> Work<'a> {
         self.spans.push(self.field.span(uv));
     }
 
-    /// Inserts points where triangles are too coarse. Returns the largest error that remains, whether it remains because
-    /// the surface is torn, and the chords that meet triangles which are still too coarse, ascending.
+    /// Inserts points where triangles are too coarse, until half of the steps are taken. Returns the largest error that
+    /// remains, whether it remains because the surface is torn, and the chords that meet triangles which are still too
+    /// coarse, ascending.
     fn refine(&mut self) -> (f64, bool, Vec<u32>) {
         let (mut worst, mut coarse) = (0.0f64, Vec::new());
         (0..self.net.triangles().len()).for_each(|number| self.judge(number, &mut worst, &mut coarse));
@@ -224,7 +227,8 @@ impl<'a> Work<'a> {
         for round in 0..ROUNDS_OF_FEW {
             let known = self.corners.len();
             let late = round >= ROUNDS && coarse.len() > FEW;
-            if coarse.is_empty() || late || known > MOST || !self.divide(&mut coarse) {
+            let spent = self.steps.is_half_spent();
+            if coarse.is_empty() || late || known > MOST || spent || !self.divide(&mut coarse) {
                 break;
             }
             coarse.retain(|c| self.net.triangles()[c.number] == c.corners);
@@ -242,6 +246,8 @@ impl<'a> Work<'a> {
         chords.sort_unstable();
         chords.dedup();
         let error = coarse.iter().fold(worst, |w, c| w.max(c.gap.whole));
+        let unfinished = !coarse.is_empty() && self.steps.is_half_spent();
+        let error = if unfinished { error.max(self.off_planes()) } else { error };
         (error, coarse.iter().any(|c| self.is_torn(c.corners)), chords)
     }
 
@@ -260,21 +266,39 @@ impl<'a> Work<'a> {
         close && (0..3).any(|i| dot(&at[i].normal, &at[(i + 1) % 3].normal) < 0.0)
     }
 
+    /// How far the surface is off the planes of the triangles that seem to be the farthest off, measured: where points
+    /// are missing, estimates from second derivatives may be too small.
+    fn off_planes(&self) -> f64 {
+        let seems = |t: &[u32; 3]| {
+            self.steps.step();
+            self.gap(*t).whole
+        };
+        let mut found: Vec<(f64, [u32; 3])> = self.net.triangles().iter().map(|t| (seems(t), *t)).collect();
+        found.retain(|(off, _)| *off > self.deflection);
+        found.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let off = |(_, t): &(f64, [u32; 3])| off_plane(self.surface, t.map(|i| &self.corners[i as usize]));
+        found.iter().take(MEASURED).map(off).fold(0.0, f64::max)
+    }
+
     /// Judges a triangle. It is coarse if it exceeds the deflection, unless the chords of the border beside it allow no
     /// better.
     fn judge(&self, number: usize, worst: &mut f64, coarse: &mut Vec<Coarse>) {
         self.steps.step();
         let t = self.net.triangles()[number];
-        let at = t.map(|i| i as usize);
-        let (corners, bends) = (at.map(|i| &self.corners[i]), at.map(|i| &self.bends[i]));
-        let spans = at.map(|i| self.spans[i]);
-        let kinked = spans[0] != spans[1] || spans[1] != spans[2];
-        let gap = gap(self.surface, corners, bends, kinked, self.deflection);
+        let gap = self.gap(t);
         if gap.whole <= self.deflection {
             *worst = worst.max(gap.whole);
         } else if !is_due_to_border(self.chart, t, &gap, self.deflection) {
             coarse.push(Coarse { gap, corners: t, number });
         }
+    }
+
+    fn gap(&self, t: [u32; 3]) -> Gap {
+        let at = t.map(|i| i as usize);
+        let (corners, bends) = (at.map(|i| &self.corners[i]), at.map(|i| &self.bends[i]));
+        let spans = at.map(|i| self.spans[i]);
+        let kinked = spans[0] != spans[1] || spans[1] != spans[2];
+        gap(self.surface, corners, bends, kinked, self.deflection)
     }
 
     /// Inserts a point for each coarse triangle, unless a neighbour already got one in this round. Returns whether any
@@ -284,6 +308,9 @@ impl<'a> Work<'a> {
         let mut touched = vec![false; self.corners.len()];
         let mut any = false;
         for Coarse { gap, corners: t, .. } in coarse {
+            if self.steps.is_half_spent() {
+                break;
+            }
             if t.iter().filter(|&&i| touched[i as usize]).count() >= 2 {
                 continue;
             }

@@ -38,6 +38,9 @@ pub struct FaceMesh {
     pub turned: Vec<usize>,
     /// Where the surface is torn, no mesh keeps the deflection: the chord error there. 0 for all other surfaces.
     pub torn: f64,
+    /// Where half of the steps were taken before the mesh kept the deflection: the chord error that it has. 0 for all
+    /// other meshes.
+    pub unfinished: f64,
 }
 
 /// Why a face has no mesh.
@@ -54,7 +57,7 @@ pub enum Fault {
     /// The smallest chord error that could be proved, where it exceeds the deflection; and the chords, each as (loop,
     /// chord), that may be the reason, as they meet triangles that exceed it.
     NotCertified(f64, Vec<[usize; 2]>),
-    /// Its mesh took more steps than a face may take.
+    /// More steps were taken than a face may take, before there was any mesh, even a coarse one.
     TooMuchWork,
 }
 

@@ -93,6 +93,18 @@ fn measured(surface: &Surface, corners: [&Corner; 3], bends: [&Bend; 3], n: &Vec
     most
 }
 
+/// The largest distance of the surface from the plane of a triangle at places within it, with a margin. It does not
+/// depend on normals at the corners, which say little where a triangle is far too coarse. 0 for triangles without area.
+pub fn off_plane(surface: &Surface, corners: [&Corner; 3]) -> f64 {
+    let [a, b, c] = corners.map(|corner| corner.point);
+    let Some(n) = unit(&cross(&sub(&b, &a), &sub(&c, &a))) else { return 0.0 };
+    let off = |l: &[f64; 3]| {
+        let at = [0, 1].map(|k| l[0] * corners[0].uv[k] + l[1] * corners[1].uv[k] + l[2] * corners[2].uv[k]);
+        dot(&sub(&surface.point(at), &a), &n).abs()
+    };
+    MARGIN * PLACES.iter().map(off).fold(0.0, f64::max)
+}
+
 /// Barycentric coordinates of the places in a triangle where gaps are compared. The gaps are greatest near these
 /// places.
 const PLACES: [[f64; 3]; 10] = {

@@ -56,6 +56,9 @@ pub fn area([a, b, c]: &[[f64; 2]; 3]) -> f64 {
 /// derivatives at the corners, with a margin, and is measured where these change unevenly. `certificate` proves bounds
 /// on the true error.
 ///
+/// Where half of the steps are taken, the mesh is as it is by then: proved to fill the loops, but with the chord error
+/// that it has (`FaceMesh::unfinished`).
+///
 /// # Errors
 /// The loops cross or do not close, or the deflection cannot be proved with chords as coarse as the border's.
 pub fn mesh_face(
@@ -94,11 +97,13 @@ pub fn mesh_face(
         return Err(Fault::Degenerate);
     }
     let kept = made.error <= deflection * (1.0 + ROUNDING);
-    if !kept && !made.torn {
+    let unfinished = !kept && steps.is_half_spent();
+    if !kept && !made.torn && !unfinished {
         return Err(Fault::NotCertified(made.error, made.coarse.iter().filter_map(named).collect()));
     }
-    let torn = if kept { 0.0 } else { made.error };
-    Ok(FaceMesh { torn, ..finish(surface, made) })
+    let error = made.error;
+    let torn = if !kept && made.torn { error } else { 0.0 };
+    Ok(FaceMesh { torn, unfinished: if unfinished { error } else { 0.0 }, ..finish(surface, made) })
 }
 
 /// Share of the deflection that the chords of a face's border may use, so that the triangles beside them keep the
@@ -151,7 +156,7 @@ fn proved(
 }
 
 /// Replaces the triangles by those of the chart, straightened. Whether that succeeds, and the flipped ones keep the
-/// deflection.
+/// deflection, or need not as half of the steps are taken.
 fn straightened(
     surface: &Surface,
     made: &mut Draft,
@@ -168,7 +173,7 @@ fn straightened(
     let flipped = made.triangles.iter().zip(&in_chart).filter(|(new, old)| new != old).map(|(new, _)| *new);
     let error = doubly_curved::largest_error(surface, &made.outline, &made.corners, flipped, deflection);
     made.error = made.error.max(error);
-    error <= deflection
+    error <= deflection || steps.is_half_spent()
 }
 
 /// The mesh without inner points; the outline where the loops cannot be filled.
@@ -245,6 +250,7 @@ fn finish(surface: &Surface, made: Draft) -> FaceMesh {
         normals: corners.iter().map(|c| c.normal).collect(),
         turned,
         torn: 0.0,
+        unfinished: 0.0,
     }
 }
 

@@ -41,6 +41,11 @@ impl<'a> Progress<'a> {
         Progress { stopped, told, count: Cell::new(0), most }
     }
 
+    /// Progress of work that may take so many steps, but has to end with what it has as soon as it can.
+    pub fn half_spent(stopped: &'a (dyn Fn() -> bool + Sync), told: Option<Done<'a>>, most: u64) -> Progress<'a> {
+        Progress { count: Cell::new(most + 1), ..Progress::new(stopped, told, 2 * most) }
+    }
+
     /// Progress that is never stopped.
     pub fn free() -> Progress<'static> {
         Progress::new(&|| false, None, u64::MAX)
@@ -57,6 +62,12 @@ impl<'a> Progress<'a> {
     /// The number of steps so far.
     pub fn count(&self) -> u64 {
         self.count.get()
+    }
+
+    /// Whether half of the steps that the work may take are taken. Work that can end with what it has ends then: the
+    /// other half is for what has to come after it.
+    pub fn is_half_spent(&self) -> bool {
+        self.count.get() > self.most / 2
     }
 
     /// Counts one step; call it only within `watched`.

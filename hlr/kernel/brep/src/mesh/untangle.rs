@@ -275,6 +275,8 @@ impl Net {
             uv: points.iter().map(|p| p.uv).collect(),
             points: points.iter().map(|p| p.point).collect(),
             nodes: points.iter().map(|p| p.node).collect(),
+            torn: filled.torn,
+            unfinished: filled.unfinished,
             ..FaceMesh::default()
         };
         // Points on poles have nodes as well.

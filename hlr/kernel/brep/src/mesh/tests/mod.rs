@@ -1,6 +1,7 @@
 //! Faces made by hand. Their meshes are compared with dense samples of the surface.
 
 mod crossed;
-mod curved;
+pub mod curved;
 mod flat;
 pub mod shapes;
+mod unfinished;
