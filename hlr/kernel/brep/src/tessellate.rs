@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
+use hlr_accuracy::MESH_COARSER;
 use rayon::prelude::*;
 
 use crate::copied_points::{copy_points, of_originals};
@@ -26,10 +27,8 @@ const ROUNDS_UPON: usize = 4;
 /// Limit on the steps that one face takes in all rounds: 16 million triangles take half of them, most faces a few
 /// thousand. From half of them on, its mesh is drawn as it is by then.
 const MOST_STEPS: u64 = 1 << 29;
-/// Where they run out before there is any mesh, the face is meshed for a chord error so many times as large.
-const COARSER: f64 = 16.0;
-/// One of so many parts of the steps is for that, in each round anew: chords may be divided for the face on their other
-/// side.
+/// Where they run out before there is any mesh, the face is meshed for a larger chord error (`MESH_COARSER`). One of so
+/// many parts of the steps is for that, in each round anew: chords may be divided for the face on their other side.
 const PARTS: u64 = 16;
 /// Limit on the points of all edges and all faces: 16 million triangles, about 4 GB of a drawing.
 const MOST_POINTS: usize = 8_000_000;
@@ -366,7 +365,7 @@ fn coarser(
     angle: f64,
     steps: &Progress,
 ) -> Tried {
-    let most = COARSER * deflection;
+    let most = MESH_COARSER * deflection;
     let mut tried = try_face(model, face, lines, most, angle, [false; 2], steps);
     if tried.face.fault.is_some() {
         return failed(Fault::TooMuchWork, Vec::new());
