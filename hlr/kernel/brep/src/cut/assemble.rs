@@ -3,6 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use super::caps::caps;
+use super::made::Made;
 use super::plane::Plane;
 use super::regions::Regions;
 use super::section_curve::section_curve;
@@ -12,30 +13,6 @@ use super::trace::Section;
 use crate::body::{Body, BodyFace};
 use crate::format::Orientation;
 use crate::shapes::{Edge, Face, Use};
-
-/// What is made so far. `on_plane` and `sums`: by edge, whether it lies on the plane, and how often faces use it in its
-/// sense, those against it subtracted.
-pub struct Made {
-    pub body: Body,
-    pub on_plane: Vec<bool>,
-    pub sums: Vec<i32>,
-}
-
-impl Made {
-    pub fn add_edge(&mut self, edge: Edge, on_plane: bool) -> u32 {
-        self.body.edges.push(edge);
-        self.on_plane.push(on_plane);
-        self.sums.push(0);
-        self.body.edges.len() as u32 - 1
-    }
-
-    pub fn add_face(&mut self, face: BodyFace) {
-        for used in face.face.wires.iter().flatten() {
-            self.sums[used.edge as usize] += sense(used.orientation, face.reversed);
-        }
-        self.body.faces.push(face);
-    }
-}
 
 /// The bodies that are left; None: nothing is.
 ///

@@ -1,7 +1,7 @@
 //! The new faces on the plane: what edges with a face on one side only enclose there.
 
-use super::assemble::Made;
 use super::loops::{Side, faces};
+use super::made::Made;
 use super::plane::Plane;
 use crate::body::BodyFace;
 use crate::format::{Orientation, SurfaceRecord};

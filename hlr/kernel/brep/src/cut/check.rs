@@ -3,12 +3,11 @@
 use super::plane::Plane;
 use crate::body::{Body, model_of};
 use crate::geometry::vector::{Vector, add, along, cross, dot, length, scaled, sub};
-use crate::tessellate::{MOST_POINTS, Tessellation, Watch, tessellate};
+use crate::tessellate::{LIMITS, Tessellation, Watch, tessellate};
+use hlr_accuracy::CUT_DISPLACED;
 
 /// Of the area of a closed mesh: how far its area, as a vector, may be from zero.
 const OPEN: f64 = 1e-7;
-/// Chord errors by which each face of a mesh may be displaced.
-const DISPLACED: f64 = 3.0;
 
 /// What a mesh encloses, its volume six times; seen from a point, as cones over its triangles.
 #[derive(Default)]
@@ -50,7 +49,7 @@ pub fn check(
         add_below(if own { [t[0], t[2], t[1]] } else { t }, &plane.normal, &mut below);
     }
     let model = model_of(pieces.to_vec(), false);
-    let meshed = tessellate(&model, deflection, angle, MOST_POINTS, watch).map_err(|_| "it was stopped")?;
+    let meshed = tessellate(&model, deflection, angle, LIMITS, watch).map_err(|_| "it was stopped")?;
     if meshed.faces.iter().any(|face| face.fault.is_some()) {
         return Err("a face that is cut has no mesh");
     }
@@ -70,7 +69,7 @@ pub fn check(
         whole.volume += piece.volume;
         whole.size += piece.size;
     }
-    let most = 6.0 * DISPLACED * deflection * (below.size + whole.size);
+    let most = 6.0 * CUT_DISPLACED * deflection * (below.size + whole.size);
     if (whole.volume - below.volume).abs() > most { Err("what is left has another volume") } else { Ok(()) }
 }
 

@@ -15,9 +15,12 @@ mod caps;
 mod check;
 mod edge_pieces;
 mod loops;
+mod made;
 mod plane;
 mod regions;
 mod section_curve;
+mod section_point;
+mod section_spline;
 mod separate;
 mod shares;
 mod trace;
@@ -29,7 +32,7 @@ use rayon::prelude::*;
 use crate::body::{Body, model_of};
 use crate::geometry::vector::{Vector, dot, length, sub};
 use crate::model::Model;
-use crate::tessellate::{Ended, MOST_POINTS, Watch, tessellate};
+use crate::tessellate::{Ended, LIMITS, Watch, tessellate};
 use border::Border;
 use edge_pieces::{Pieces, divided, extremes};
 pub use plane::Plane;
@@ -84,7 +87,7 @@ fn try_cut(
     let size = size(&body);
     let guide = model_of(vec![body.clone()], false);
     let watch = Watch { stopped, done: &AtomicUsize::new(0) };
-    let guided = match tessellate(&guide, GUIDE * size, GUIDE_ANGLE, MOST_POINTS, &watch) {
+    let guided = match tessellate(&guide, GUIDE * size, GUIDE_ANGLE, LIMITS, &watch) {
         Ok(guided) => guided,
         Err(Ended::Stopped) => return Ok(Cut::Stopped),
         Err(Ended::TooFine) => return Err("its mesh is too fine"),
@@ -114,8 +117,11 @@ fn try_cut(
     }
     let found = Shares { body: &body, guided: &guided, pieces: &pieces, shares: &shares, vertices: &vertices };
     let Some(left) = assemble::assembled(&found, plane, size)? else { return Ok(Cut::Gone) };
-    check::check(&body, &guided, &left, plane, GUIDE * size, GUIDE_ANGLE, &watch)?;
-    Ok(Cut::Pieces(left))
+    let checked = check::check(&body, &guided, &left, plane, GUIDE * size, GUIDE_ANGLE, &watch);
+    if stopped() {
+        return Ok(Cut::Stopped);
+    }
+    checked.map(|()| Cut::Pieces(left))
 }
 
 fn share(

@@ -1,32 +1,17 @@
 //! The curve of a new edge: where a plane passes through a surface, from vertex to vertex.
 
 use super::plane::Plane;
+use super::section_point::{EXACT, Point, SectionCurve, middle, on_both, with_curve2};
+use super::section_spline::spline;
 use super::trace::Run;
 use crate::geometry::curve::Curve;
-use crate::geometry::nurbs::Nurbs;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
 use hlr_exact::elementary::atan2;
 use std::f64::consts::TAU;
 
-/// Of the size of a body: what departs no farther from a line or an ellipse is one, or from its own curve lies on it.
-const EXACT: f64 = 1e-9;
-/// Of the size of a body: how far a spline may be off.
-const FITTED: f64 = 2e-7;
-const MOST_HALVINGS: u32 = 14;
-const MOST_POINTS: usize = 20_000;
-const NEWTON_STEPS: usize = 20;
 /// Of the way from a pole to the next point: where the parameter that has no meaning at the pole is taken.
 const BESIDE: f64 = 1e-3;
-
-/// A curve in space over a range, and the same in (u, v) over the same range; None on a plane.
-pub struct SectionCurve {
-    pub curve: Curve,
-    pub range: [f64; 2],
-    pub curve2: Option<Curve>,
-}
-
-type Point = ([f64; 2], Vector);
 
 /// The curve of a run. `ends`: its vertices' places; `size`: of the body. The curve ends there or, where these are off the
 /// surface, beside them.
@@ -95,36 +80,6 @@ fn beside_pole(surface: &Surface, end: [f64; 2], inner: [f64; 2], plane: &Plane,
     let mut out = end;
     out[free] = found[free];
     out
-}
-
-/// The point of a section between two others, close to their middle in (u, v).
-fn middle(surface: &Surface, a: &Point, b: &Point, plane: &Plane) -> Option<Point> {
-    on_both(surface, [0, 1].map(|k| 0.5 * (a.0[k] + b.0[k])), plane)
-}
-
-/// The point on surface and plane that is reached from a point of the surface along its steepest line.
-fn on_both(surface: &Surface, mut uv: [f64; 2], plane: &Plane) -> Option<Point> {
-    let mut before = f64::INFINITY;
-    for _ in 0..NEWTON_STEPS {
-        let (point, du, dv) = surface.d1(uv);
-        let height = plane.height(&point);
-        if height.abs() >= before || height == 0.0 {
-            let close = height.abs().min(before) <= plane.near;
-            return close.then_some((uv, point));
-        }
-        before = height.abs();
-        let (e, f, g) = (dot(&du, &du), dot(&du, &dv), dot(&dv, &dv));
-        let (a, b) = (dot(&plane.normal, &du), dot(&plane.normal, &dv));
-        let determinant = e * g - f * f;
-        let (x, y) = ((g * a - f * b) / determinant, (e * b - f * a) / determinant);
-        let slope = a * x + b * y;
-        if !(slope > 0.0 && determinant > 0.0) {
-            return (before <= plane.near).then_some((uv, point));
-        }
-        uv = [uv[0] - height * x / slope, uv[1] - height * y / slope];
-    }
-    let point = surface.point(uv);
-    (plane.height(&point).abs() <= plane.near).then_some((uv, point))
 }
 
 /// An ellipse's centre and two half axes at right angles.
@@ -210,116 +165,72 @@ fn on_ellipse(ellipse: Ellipse, points: &[Point]) -> SectionCurve {
     with_curve2(Curve::Ellipse { p, a, b }, range, points, parameters)
 }
 
-/// The curve in (u, v) leads straight from point to point: its middle only says which of several points of the surface is
-/// meant.
-fn with_curve2(curve: Curve, range: [f64; 2], points: &[Point], mut parameters: Vec<f64>) -> SectionCurve {
-    let last = parameters.len() - 1;
-    (parameters[0], parameters[last]) = (range[0], range[1]);
-    for k in 1..=last {
-        parameters[k] = parameters[k].max(parameters[k - 1]).min(range[1]);
-    }
-    let mut kept: Vec<usize> = (0..last).filter(|&k| k == 0 || parameters[k] > parameters[k - 1]).collect();
-    kept.retain(|&k| k == 0 || parameters[k] < range[1]);
-    kept.push(last);
-    let mut knots: Vec<f64> = kept.iter().map(|&k| parameters[k]).collect();
-    knots.insert(0, range[0]);
-    knots.push(range[1]);
-    let poles = kept.iter().map(|&k| [points[k].0[0], points[k].0[1], 0.0, 1.0]).collect();
-    let curve2 = Curve::Spline(Nurbs { degree: 1, rational: false, sampled: true, knots, poles });
-    SectionCurve { curve, range, curve2: Some(curve2) }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// A point with the direction of the section there.
-#[derive(Clone, Copy)]
-struct Station {
-    point: Point,
-    way: Vector,
-}
+    fn frame(kind: u8, sizes: &[f64]) -> Surface {
+        let axes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].concat();
+        Surface::read(kind, &[&axes[..], sizes].concat()).unwrap()
+    }
 
-/// A cubic spline through points of the section, tangent to it, with as many points as it needs.
-fn spline(surface: &Surface, points: &[Point], plane: &Plane, size: f64) -> Result<SectionCurve, &'static str> {
-    let station = |point: Point, chord: &Vector| {
-        let (_, du, dv) = surface.d1(point.0);
-        let way = unit(&cross(&plane.normal, &cross(&du, &dv))).or_else(|| unit(chord)).unwrap_or([0.0; 3]);
-        Station { point, way: if dot(&way, chord) < 0.0 { scaled(&way, -1.0) } else { way } }
-    };
-    let mut stations: Vec<Station> = Vec::new();
-    for pair in points.windows(2) {
-        let chord = sub(&pair[1].1, &pair[0].1);
-        if length(&chord) <= EXACT * size && !stations.is_empty() {
-            continue;
-        }
-        let [from, to] = [station(pair[0], &chord), station(pair[1], &chord)];
-        if stations.is_empty() {
-            stations.push(from);
-        }
-        let from = Station { point: stations[stations.len() - 1].point, ..from };
-        refined(surface, from, to, plane, size, 0, &station, &mut stations)?;
+    fn tilted(level: f64) -> Plane {
+        Plane { normal: [0.6, 0.0, 0.8], level, near: 1e-9 }
     }
-    if stations.len() < 2 {
-        return Err("two vertices lie in one place");
-    }
-    let mut knots = vec![0.0];
-    for pair in stations.windows(2) {
-        knots.push(knots[knots.len() - 1] + arc(&pair[0], &pair[1]));
-    }
-    let range = [0.0, knots[knots.len() - 1]];
-    let last = stations.len() - 1;
-    let pole = |p: Vector| [p[0], p[1], p[2], 1.0];
-    let mut poles = Vec::with_capacity(2 * stations.len());
-    for (k, one) in stations.iter().enumerate() {
-        let at = &one.point.1;
-        if k == 0 {
-            poles.push(pole(*at));
-        } else {
-            poles.push(pole(along(at, &one.way, -(knots[k] - knots[k - 1]) / 3.0)));
-        }
-        if k == last {
-            poles.push(pole(*at));
-        } else {
-            poles.push(pole(along(at, &one.way, (knots[k + 1] - knots[k]) / 3.0)));
-        }
-    }
-    let inner = knots[1..last].iter().flat_map(|&t| [t, t]);
-    let all = [range[0]; 4].into_iter().chain(inner).chain([range[1]; 4]).collect();
-    let curve = Curve::Spline(Nurbs { degree: 3, rational: false, sampled: true, knots: all, poles });
-    let points: Vec<Point> = stations.iter().map(|s| s.point).collect();
-    Ok(with_curve2(curve, range, &points, knots))
-}
 
-/// The length of the arc between two stations, from their chord and the angle by which it turns.
-fn arc(a: &Station, b: &Station) -> f64 {
-    let chord = length(&sub(&b.point.1, &a.point.1));
-    let turn = length(&sub(&b.way, &a.way));
-    chord * (1.0 + turn * turn / 24.0)
-}
-
-#[allow(clippy::too_many_arguments)]
-fn refined(
-    surface: &Surface,
-    a: Station,
-    b: Station,
-    plane: &Plane,
-    size: f64,
-    depth: u32,
-    station: &dyn Fn(Point, &Vector) -> Station,
-    out: &mut Vec<Station>,
-) -> Result<(), &'static str> {
-    let between = middle(surface, &a.point, &b.point, plane).ok_or("its surface touches the plane")?;
-    let chord = sub(&b.point.1, &a.point.1);
-    let here = station(between, &chord);
-    let step = arc(&a, &b) / 8.0;
-    let on_curve = add(&scaled(&add(&a.point.1, &b.point.1), 0.5), &scaled(&sub(&a.way, &b.way), step));
-    let off = sub(&on_curve, &between.1);
-    let beside = length(&along(&off, &here.way, -dot(&off, &here.way)));
-    let astray = length(&off) > 0.25 * length(&chord);
-    if (beside > FITTED * size || astray) && length(&chord) > FITTED * size {
-        if depth == MOST_HALVINGS || out.len() > MOST_POINTS {
-            return Err("its section bends too much");
-        }
-        refined(surface, a, here, plane, size, depth + 1, station, out)?;
-        return refined(surface, here, b, plane, size, depth + 1, station, out);
+    /// The curve through points of the surface near these parameters.
+    fn through(surface: &Surface, plane: &Plane, near: impl Iterator<Item = [f64; 2]>) -> SectionCurve {
+        let points: Vec<Point> = near.map(|uv| on_both(surface, uv, plane).unwrap()).collect();
+        let run = Run { region: 0, ends: [0, 1], points };
+        let ends = [run.points[0].1, run.points[run.points.len() - 1].1];
+        section_curve(surface, &run, ends, plane, 10.0).unwrap()
     }
-    out.push(b);
-    Ok(())
+
+    fn is_on(found: &SectionCurve, surface: &Surface, plane: &Plane, most: f64) {
+        for k in 0..=200 {
+            let t = found.range[0] + (found.range[1] - found.range[0]) * f64::from(k) / 200.0;
+            let point = found.curve.point(t);
+            let [u, v, _] = found.curve2.as_ref().unwrap().point(t);
+            let uv = crate::faces::near(surface, &point, [u, v]).unwrap();
+            assert!(plane.height(&point).abs() < most, "{t}");
+            assert!(length(&sub(&surface.point(uv), &point)) < most, "{t}");
+        }
+    }
+
+    fn turn(from: f64, to: f64) -> impl Iterator<Item = [f64; 2]> {
+        (0..=12).map(move |k| [from + (to - from) * f64::from(k) / 12.0, 0.0])
+    }
+
+    #[test]
+    fn planes_cut_spheres_in_circles_and_cylinders_in_ellipses() {
+        let (sphere, cylinder) = (frame(4, &[5.0]), frame(2, &[2.0]));
+        for (from, to) in [(0.3, 5.9), (5.9, 0.3)] {
+            let found = through(&sphere, &tilted(0.0), turn(from, to));
+            assert!(matches!(found.curve, Curve::Ellipse { a, b, .. } if (length(&a) - length(&b)).abs() < 1e-12));
+            is_on(&found, &sphere, &tilted(0.0), 1e-12);
+            let found = through(&cylinder, &tilted(1.0), turn(from, to));
+            assert!(
+                matches!(found.curve, Curve::Ellipse { a, b, .. } if (length(&a) / length(&b) - 1.25).abs() < 1e-12)
+            );
+            is_on(&found, &cylinder, &tilted(1.0), 1e-12);
+        }
+    }
+
+    #[test]
+    fn other_sections_are_splines_that_keep_to_surface_and_plane() {
+        let cone = frame(3, &[2.0, 0.3]);
+        let found = through(&cone, &tilted(1.0), turn(0.3, 5.9));
+        assert!(matches!(found.curve, Curve::Spline(_)));
+        is_on(&found, &cone, &tilted(1.0), 4e-6);
+    }
+
+    #[test]
+    fn a_plane_along_a_cylinder_or_through_an_apex_cuts_rulings() {
+        let plane = Plane { normal: [1.0, 0.0, 0.0], level: 0.0, near: 1e-9 };
+        for surface in [frame(2, &[2.0]), frame(3, &[2.0, 0.3])] {
+            let found = through(&surface, &plane, [[1.5, 0.0], [1.6, 1.0], [1.57, 3.0]].into_iter());
+            assert!(matches!(found.curve, Curve::Line { .. }));
+            is_on(&found, &surface, &plane, 1e-12);
+        }
+    }
 }
