@@ -7,6 +7,7 @@
 
 meshing    B-reps to triangles, beside BRepMesh at the same deflection: time, triangles, errors
 svg        shape in memory to SVG on disk, triangulation included, beside CadQuery's export
+sections   a section, beside the same with OpenCASCADE's cut
 build123d  the same through the drop-in, beside build123d's own projection
 kernel     hidden-line removal of one view, beside HLRBRep_PolyAlgo on the same triangles
 arrays     `hlr.draw` of tori as arrays
@@ -24,12 +25,13 @@ import platform
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bench import brepmesh, loads, scenes
+from bench import brepmesh, cuts, loads, scenes
 from bench.pairs import kernel_table, svg_table
 from bench.table import Table
 
 KERNEL_SCENES = ("plate20", "asm1000", "asm4000", "asm16000", "tori250")
 SVG_SCENES = ("box", "filleted box", "sphere", "plate20", "asm1000", "asm4000")
+SECTION_SCENES = ("filleted box", "plate20", "asm1000")
 MESHING_SCENES = ("plate20", "asm1000", "asm4000")
 
 
@@ -52,6 +54,7 @@ def tables(given: argparse.Namespace) -> dict[str, Callable[[], Table]]:
     return {
         "meshing": lambda: brepmesh.table([*chosen(MESHING_SCENES), *files], given.share, given.repeat),
         "svg": lambda: svg_table(shapes, given, "hlr-svg", "cadquery-svg", "CadQuery"),
+        "sections": lambda: cuts.table([*chosen(SECTION_SCENES), *files], given.repeat),
         "build123d": lambda: svg_table(shapes, given, "hlr-build123d", "build123d", "build123d"),
         "kernel": lambda: kernel_table(chosen(KERNEL_SCENES), given),
         "arrays": lambda: loads.arrays(given.tori),

@@ -8,7 +8,7 @@ from argparse import Namespace
 
 import numpy as np
 import pytest
-from bench import drawings, loads, measure, occt, ours, pairs, run, scenes
+from bench import cuts, drawings, loads, measure, occt, ours, pairs, run, scenes
 from cadquery import Shape
 
 from hlr.lab.rivals.opencascade import ExactAlgo, PolyAlgo, triangle_count
@@ -133,3 +133,10 @@ def test_tori_lie_apart_and_processes_are_measured() -> None:
     assert seconds > 0.01 and megabytes > 5.0
     with pytest.raises(RuntimeError, match="ended with"):
         loads.processor_seconds([sys.executable, "-c", "raise SystemExit(3)"])
+
+
+def test_sections_are_cut_by_either() -> None:
+    found = cuts.table(["filleted box"], 1)
+    (result,) = found.results
+    assert result["scene"] == "filleted box" and 0.0 < result["kernel"] < float("inf") > result["opencascade"] > 0.0
+    assert cuts.sources.KernelCut is cuts.KernelCut

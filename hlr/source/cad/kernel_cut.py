@@ -1,4 +1,4 @@
-"""Parts of a B-rep cut by a plane in the kernel: OpenCASCADE is not needed, and takes ten to fifty times as long."""
+"""Parts of a B-rep cut by a plane in the kernel: OpenCASCADE is not needed, and takes several times as long."""
 
 from __future__ import annotations
 
