@@ -174,6 +174,15 @@ def test_what_is_no_body_is_left_to_opencascade():
     assert why_not(inside_out, (0, 0, 1), 0) == "it is turned inside out"
 
 
+def test_a_plane_that_a_coarse_mesh_may_miss_is_left_to_opencascade():
+    """A slice of a ball, a thousandth of a millimetre high and more than half a millimetre wide."""
+    ball, normal = cq.Workplane().sphere(50).val(), np.array([0.48, -0.64, 0.6])
+    assert why_not(ball, normal.tolist(), 49.999) == "the plane nearly touches it"
+    assert why_not(ball, normal.tolist(), -49.999) == "the plane nearly touches it"
+    drawing = section(cq.Workplane(obj=ball), tuple(normal.tolist()), where=tuple((49.999 * normal).tolist()), scale=10)
+    assert any(line.kind == "sharp" for line in drawing.visible)
+
+
 def test_each_part_is_cut_by_what_can_cut_it():
     parts = cq.Assembly()
     sides = cq.Shell.makeShell(cq.Workplane().box(10, 10, 10).translate((40, 0, 0)).faces("#Z").vals())

@@ -16,6 +16,7 @@ mod check;
 mod edge_pieces;
 mod loops;
 mod made;
+mod near_misses;
 mod plane;
 mod regions;
 mod section_curve;
@@ -35,6 +36,7 @@ use crate::model::Model;
 use crate::tessellate::{Ended, LIMITS, Watch, tessellate};
 use border::Border;
 use edge_pieces::{Pieces, divided, extremes};
+use near_misses::{edge_misses, misses};
 pub use plane::Plane;
 use regions::Regions;
 use shares::{Share, Shares};
@@ -42,11 +44,15 @@ use trace::section;
 
 /// Of the size of a body: chord error of the mesh that leads the way.
 const GUIDE: f64 = 1e-4;
+/// Chord errors of that mesh by which a surface may bulge beyond it.
+const BULGE: f64 = 2.0;
 /// Radians from chord to chord of that mesh.
 const GUIDE_ANGLE: f64 = 0.2;
 
 /// Why a part is not cut whose faces are triangles alone.
 pub const BARE: &str = "its faces are triangles without surfaces";
+
+const NEARLY: &str = "the plane nearly touches it";
 
 /// What a plane leaves of a part.
 pub enum Cut {
@@ -105,11 +111,17 @@ fn try_cut(
         if edge.curve.is_none() && !found.breaks.is_empty() {
             return Err("an edge has no curve in space");
         }
+        if edge_misses(edge, line, &found, plane, BULGE * GUIDE * size) {
+            return Err(NEARLY);
+        }
         pieces.push(found);
     }
     let border = Border { edges: &body.edges, lines: &guided.lines, pieces: &pieces };
     let mut shares = Vec::with_capacity(body.faces.len());
     for (own, found) in body.faces.iter().zip(&guided.faces) {
+        if misses(&own.face, found, plane, BULGE * GUIDE * size) {
+            return Err(NEARLY);
+        }
         shares.push(share(&own.face, own.reversed, found, &border, plane, &mut vertices)?);
     }
     if shares.iter().all(|share| matches!(share, Share::Whole)) {
