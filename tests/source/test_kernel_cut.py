@@ -175,10 +175,18 @@ def test_what_is_no_body_is_left_to_opencascade():
 
 
 def test_a_plane_that_a_coarse_mesh_may_miss_is_left_to_opencascade():
-    """A slice of a ball, a thousandth of a millimetre high and more than half a millimetre wide."""
-    ball, normal = cq.Workplane().sphere(50).val(), np.array([0.48, -0.64, 0.6])
-    assert why_not(ball, normal.tolist(), 49.999) == "the plane nearly touches it"
-    assert why_not(ball, normal.tolist(), -49.999) == "the plane nearly touches it"
+    """Slices of a ball, down to a ten-thousandth of a millimetre high and a fifth of a millimetre wide."""
+    ball, reasons = cq.Workplane().sphere(50).val(), set()
+    rng = np.random.default_rng(5)
+    for height in (1e-2, 1e-3, 1e-4) * 4:
+        normal = rng.normal(size=3)
+        normal /= np.linalg.norm(normal)
+        for level in (50 - height, height - 50):
+            [(why, is_cut, pieces)] = _kernel.CutParts(model_of(ball), [(0, normal.tolist(), level, NEAR)]).found
+            assert why is not None or (is_cut and len(pieces) == 1), (height, normal)
+            reasons.add(why)
+    assert reasons == {None, "the plane nearly touches it"}
+    normal = np.array([0.48, -0.64, 0.6])
     drawing = section(cq.Workplane(obj=ball), tuple(normal.tolist()), where=tuple((49.999 * normal).tolist()), scale=10)
     assert any(line.kind == "sharp" for line in drawing.visible)
 

@@ -11,6 +11,7 @@ use super::plane::Plane;
 use crate::edges::Polyline;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::Vector;
+use crate::mesh::area;
 use crate::shapes::{Edge, Face};
 use crate::tessellate::MeshedFace;
 
@@ -27,7 +28,10 @@ const IN_TRIANGLE: [[f64; 3]; 7] = {
         [near, near, far],
     ]
 };
-const ALONG_CHORD: [f64; 3] = [0.25, 0.5, 0.75];
+const ALONG_CHORD: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
+/// Of the extent of a triangle in (u, v), and how many.
+const FIRST_STEP: f64 = 0.2;
+const STEPS: usize = 24;
 
 /// Whether the mesh of a face misses the plane somewhere. Beside lines at which it passes the plane, the surface may lie on
 /// the other side of it than the mesh: there, nothing is missed.
@@ -46,12 +50,46 @@ pub fn misses(face: &Face, found: &MeshedFace, plane: &Plane, deflection: f64) -
         if far || t.iter().any(|&i| beside[i as usize]) {
             return false;
         }
-        let side = beyond(&t[0]);
-        IN_TRIANGLE.iter().any(|share| {
-            let uv = [0, 1].map(|k| (0..3).map(|c| share[c] * mesh.uv[t[c] as usize][k]).sum());
-            is_across(side, &surface.point(uv), plane)
-        })
+        reaches_across(surface, t.map(|i| mesh.uv[i as usize]), beyond(&t[0]), plane)
     })
+}
+
+/// Whether a surface reaches across the plane within a triangle: from the place that comes closest of those looked at, a
+/// search goes on in ever smaller steps.
+fn reaches_across(surface: &Surface, corners: [[f64; 2]; 3], beyond: bool, plane: &Plane) -> bool {
+    let rise = |uv: [f64; 2]| plane.height(&surface.point(uv)) * if beyond { -1.0 } else { 1.0 };
+    let places = IN_TRIANGLE.iter().map(|share| [0, 1].map(|k| (0..3).map(|c| share[c] * corners[c][k]).sum()));
+    let mut best = ([0.0; 2], f64::NEG_INFINITY);
+    for uv in places {
+        let height = rise(uv);
+        if height > best.1 {
+            best = (uv, height);
+        }
+    }
+    let is_within = |uv: [f64; 2]| (0..3).all(|k| area(&[corners[k], corners[(k + 1) % 3], uv]) >= 0.0);
+    let extent = |k: usize| {
+        let (low, high) = corners.iter().fold((f64::MAX, f64::MIN), |(l, h), uv| (l.min(uv[k]), h.max(uv[k])));
+        high - low
+    };
+    let mut step = [extent(0), extent(1)].map(|extent| FIRST_STEP * extent);
+    for _ in 0..STEPS {
+        if best.1 > plane.near {
+            return true;
+        }
+        let before = best.1;
+        for (k, sense) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
+            let mut uv = best.0;
+            uv[k] += sense * step[k];
+            let height = if is_within(uv) { rise(uv) } else { f64::NEG_INFINITY };
+            if height > best.1 {
+                best = (uv, height);
+            }
+        }
+        if best.1 <= before {
+            step = step.map(|step| 0.5 * step);
+        }
+    }
+    best.1 > plane.near
 }
 
 /// The same of the polyline of an edge.
