@@ -63,7 +63,7 @@ CODES: dict[NoteCode, str] = {
     "page-too-small": "at the scale that was asked for, the drawing is larger than its page inside the margins",
     "room-unknown": "the template of a page does not say where views may lie: they may lie on its title block",
     "nothing-in-view": "there is not a line in the drawing",
-    "section-not-cut": "OpenCASCADE cannot cut a part, which a section therefore shows whole",
+    "section-not-cut": "a part cannot be cut, and a section therefore shows it whole",
     "section-not-hatched": "the plane of a section cuts no part, or parts that are not closed",
     "section-not-marked": "no view of a page sees the plane of a section from its edge, so that none shows where it is",
     "over-time": "reading and the coarsest drawing took longer than the time that was given",
