@@ -27,7 +27,7 @@ from hlr.source.cad.kernel_cut import KernelCut
 @contextmanager
 def opencascade():
     """OpenCASCADE cuts all parts."""
-    sources.KernelCut = lambda source, _, crossed: KernelCut(source, None, crossed)
+    sources.KernelCut = lambda *asked: KernelCut(*asked[:3], ())
     try:
         yield
     finally:

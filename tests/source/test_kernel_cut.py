@@ -16,10 +16,11 @@ import hlr
 from hlr import _kernel
 from hlr.source import open_source
 from hlr.source.cad.brep_source import BrepSource
-from hlr.source.cad.kernel_cut import KernelCut, PartPlane
+from hlr.source.cad.kernel_cut import KernelCut, NotHereError
 from hlr.source.cad.prototypes import LivePrototypes
 from hlr.source.cad.source_builder import with_appearance
 from hlr.source.model import Appearance
+from hlr.source.stepped import Stepped
 from support.sections import hatch_of, opencascade_cuts, section
 
 NEAR = 1e-7
@@ -43,6 +44,11 @@ def why_not(shape, normal, level):
     [(why, is_cut, pieces)] = _kernel.CutParts(model_of(shape), [(0, normal, level, NEAR)]).found
     assert not is_cut and not pieces
     return why
+
+
+def plane(normal):
+    """Through the origin."""
+    return Stepped(np.array(normal), np.array([normal[1], normal[2], normal[0]]), np.zeros(1), np.zeros(0))
 
 
 def volumes(model, deflection=1e-4):
@@ -197,7 +203,7 @@ def test_each_part_is_cut_by_what_can_cut_it():
     for name, body in (("ball", BALL), ("sides", sides), ("far", box().moved(cq.Location((0, 30, 0))))):
         parts.add(body, name=name)
     source = open_source(parts)
-    cut = KernelCut(source, PartPlane(np.array([0.0, -1.0, 0.0]), 0.0, NEAR), ["ball", "sides"])
+    cut = KernelCut(source, plane((0.0, -1.0, 0.0)), NEAR, ["ball", "sides"])
     assert cut.failed == {"sides": "it is no closed body"} and cut.cut == {"ball"}
     drawing = hlr.draw(parts, "front", section=0)
     assert [part.name for part in drawing.parts] == ["ball", "sides", "far"]
@@ -278,6 +284,21 @@ def test_a_drawing_is_that_of_opencascade(monkeypatch):
         assert _ink(own) == pytest.approx(_ink(rival), rel=1e-3)
 
 
+def test_what_the_kernel_cannot_put_together_is_cut_by_opencascade_as_a_whole(monkeypatch):
+    pair = cq.Assembly().add(comb(), name="comb").add(BALL.moved(cq.Location((0, 30, 0))), name="ball")
+    own, asked = section(pair, where=0), []
+
+    def cannot(*_):
+        asked.append(1)
+        raise NotHereError
+
+    monkeypatch.setattr(KernelCut, "joined", cannot)
+    rival = section(pair, where=0)
+    assert asked and [part.name for part in rival.parts] == [part.name for part in own.parts] == ["comb", "ball"]
+    assert len(hatch_of(own)) == len(hatch_of(rival)) > 10
+    assert _ink(own) == pytest.approx(_ink(rival), rel=1e-3)
+
+
 def _ink(drawing):
     """Length of all lines but hatches, by class and visibility, millimetres."""
     found = {}
@@ -300,7 +321,7 @@ def test_faces_that_are_left_keep_their_colours():
     # The faces at x = -5, x = 5, y = -5 and so on. The second one is lost.
     coloured = with_appearance(part, Appearance(None, {1: red, 3: red}))
     source = BrepSource("box", "object", [coloured], whole.prototypes)
-    cut = KernelCut(source, PartPlane(np.array([1.0, 0.0, 0.0]), 0.0, NEAR), [part.name])
+    cut = KernelCut(source, plane((1.0, 0.0, 0.0)), NEAR, [part.name])
     assert cut.cut == {part.name} and not cut.failed
     assert cut.joined([], None).appearances() == {part.name: Appearance(None, {2: red})}
 

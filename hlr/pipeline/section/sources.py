@@ -14,7 +14,7 @@ from hlr.errors import OptionError, SourceError
 from hlr.pipeline.section.plane import Planes
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.half_space import UncuttableError, bare_error
-from hlr.source.cad.kernel_cut import BARE, SAME, KernelCut, NotHereError, PartPlane
+from hlr.source.cad.kernel_cut import BARE, SAME, KernelCut, NotHereError
 from hlr.source.cad.parts import Leaf, Part
 from hlr.source.mesh.mesh_source import MeshSource
 from hlr.source.model import Source
@@ -121,9 +121,7 @@ def _joined(source: BrepSource, planes: Planes, whole: list[str], crossed: list[
 
     Raises NotHereError where the kernel cannot put the two together.
     """
-    stepped = planes.stepped()
-    plane = None if planes.steps else PartPlane(stepped.normal, float(stepped.levels[0]), planes.near)
-    own = KernelCut(source, plane, crossed)
+    own = KernelCut(source, planes.stepped(), planes.near, () if planes.steps else crossed)
     failed = {name: bare_error(name) for name, why in own.failed.items() if why == BARE}
     rest = [name for name in crossed if name not in failed and name not in own.known]
     left = _left_of(source, planes, set(), set(rest)) if rest else _Left()

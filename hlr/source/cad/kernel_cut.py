@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
 
 from hlr import _kernel
-from hlr.common.types import Floats
 from hlr.errors import SourceError
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.parts import Part
 from hlr.source.cad.prototypes import Prototypes
 from hlr.source.cad.source_builder import with_appearance
 from hlr.source.model import Appearance
+from hlr.source.stepped import Stepped
 
 SAME = 12
 """Decimals of directions, and of heights over the size of a model: planes that agree in them are the same."""
@@ -28,21 +29,6 @@ class NotHereError(Exception):
     """A model that the kernel cannot put together. The message says why."""
 
 
-@dataclass(frozen=True, slots=True)
-class PartPlane:
-    """A plane in the frame of a part. normal (3,) of length 1; level: along it; near: what counts as on it."""
-
-    normal: Floats
-    level: float
-    near: float
-
-    def before(self, transform: Floats) -> PartPlane:
-        """The same plane before a placement (4, 4), which may scale."""
-        turned = transform[:3, :3].T @ self.normal
-        scale = float(np.linalg.norm(turned))
-        return PartPlane(turned / scale, float(self.level - transform[:3, 3] @ self.normal) / scale, self.near / scale)
-
-
 class KernelCut:
     """What a plane leaves of some parts of a source. Equal parts that it cuts alike are cut once.
 
@@ -51,21 +37,25 @@ class KernelCut:
     known   names of all those of which it says what is left
     """
 
-    def __init__(self, source: BrepSource, plane: PartPlane | None, crossed: Collection[str]) -> None:
-        """Args: crossed: names of the parts that the plane may cut; plane: None: no part is cut here."""
-        self._source = source
+    def __init__(self, source: BrepSource, plane: Stepped, near: float, crossed: Collection[str]) -> None:
+        """Args: plane: that does not step; near: model units; crossed: names of the parts that are cut here."""
+        self._source, self._looks, self._names = source, source.appearances(), set(source.names())
         self._number: dict[str, int] = {}
         size = float(np.linalg.norm(np.subtract(*source.bounds())))
         keys: dict[tuple[float, ...], int] = {}
         cuts: list[tuple[int, list[float], float, float]] = []
         for part in source.parts:
-            if plane is not None and part.name in crossed:
-                own = plane.before(part.transform)
-                key = part.prototype, *np.round([*own.normal, own.level / size], SAME).tolist()
+            if part.name in crossed:
+                own, turn = plane.before(part.transform), part.transform[:3, :3]
+                level = float(own.levels[0])
+                key = part.prototype, *np.round([*own.normal, level / size], SAME).tolist()
                 self._number[part.name] = keys.setdefault(key, len(keys))
                 if len(keys) > len(cuts):
-                    cuts.append((part.prototype, own.normal.tolist(), own.level, own.near))
+                    scale = float(np.linalg.norm(turn.T @ plane.normal))
+                    cuts.append((part.prototype, own.normal.tolist(), level, near / scale))
         self._parts = _kernel.CutParts(source.prototypes.model, cuts)
+        # The number of the first piece of each cut.
+        self._first = [0, *accumulate(len(pieces) for _, _, pieces in self._parts.found)]
         found = {name: self._parts.found[number] for name, number in self._number.items()}
         self.failed = {name: why for name, (why, _, _) in found.items() if why is not None}
         self.known = frozenset(found.keys() - self.failed.keys())
@@ -79,42 +69,47 @@ class KernelCut:
         Raises:
             NotHereError: a part has no frame of its own.
         """
-        models = [self._source.prototypes] if others is None else [self._source.prototypes, others.prototypes]
-        kept: dict[tuple[int, int], int] = {}
-        placed: list[tuple[Part, tuple[int, int] | int]] = []
-        looks, names = self._source.appearances(), set(self._source.names())
-        first: list[int] = [0]
-        for _, _, pieces in self._parts.found:
-            first.append(first[-1] + len(pieces))
-        for part in self._source.parts:
-            stays = part.name in whole or part.name in self.known - self.cut
-            if stays:
-                placed.append((replace(part, product=part.name), (0, part.prototype)))
+        source, stay = self._source, {*whole, *(self.known - self.cut)}
+        added = [] if others is None else others.parts
+        # Prototypes that are not cut, each by whose it is and its number there.
+        used = [(0, part.prototype) for part in source.parts if part.name in stay]
+        used += [(1, part.prototype) for part in added]
+        kept = {key: number for number, key in enumerate(dict.fromkeys(used))}
+        parts: list[Part] = []
+        for part in source.parts:
+            if part.name in stay:
+                parts.append(replace(part, product=part.name, prototype=kept[0, part.prototype]))
             elif part.name in self.cut:
-                number = self._number[part.name]
-                pieces = self._parts.found[number][2]
-                for k, faces in enumerate(pieces):
-                    name = part.name if len(pieces) == 1 else _unique(f"{part.name}:{k + 1}", names)
-                    piece = with_appearance(replace(part, name=name, product=part.name), _look(looks[part.name], faces))
-                    placed.append((piece, first[number] + k))
-            elif others is not None:
-                own = [other for other in others.parts if other.product == part.name]
-                placed += [(other, (1, other.prototype)) for other in own]
-        if not placed:
+                parts += self._pieces(part, len(kept))
+            parts += [replace(o, prototype=kept[1, o.prototype]) for o in added if o.product == part.name]
+        if not parts:
             return None
-        for _, at in placed:
-            if isinstance(at, tuple):
-                kept.setdefault(at, len(kept))
+        owners = [source.prototypes, *([] if others is None else [others.prototypes])]
         try:
-            model = self._parts.with_parts([(models[of].model, number) for of, number in kept])
+            model = self._parts.with_parts([(owners[of].model, number) for of, number in kept])
         except NotImplementedError as error:
             raise NotHereError(str(error)) from None
-        shapes = [lambda of=of, number=number: models[of].shapes_from_dump[number] for of, number in kept]
-        parts = [replace(part, prototype=kept[at] if isinstance(at, tuple) else len(kept) + at) for part, at in placed]
-        found = BrepSource(
-            self._source.name, self._source.kind, parts, CutPrototypes(model, shapes), self._source.notes
-        )
-        found.choice, found.reading = self._source.choice, self._source.reading
+        shapes = [lambda of=of, number=number: owners[of].shapes_from_dump[number] for of, number in kept]
+        found = BrepSource(source.name, source.kind, parts, CutPrototypes(model, shapes), source.notes)
+        found.choice, found.reading = source.choice, source.reading
+        return found
+
+    def _pieces(self, part: Part, before: int) -> list[Part]:
+        """What is left of a part that is cut. before: prototypes before those of pieces."""
+        number, look = self._number[part.name], self._looks[part.name]
+        first, own = before + self._first[number], self._parts.found[number][2]
+        names = [part.name] if len(own) == 1 else [self._unique(f"{part.name}:{k}") for k in range(1, len(own) + 1)]
+        return [
+            with_appearance(replace(part, name=name, product=part.name, prototype=first + k), _look(look, faces))
+            for k, (name, faces) in enumerate(zip(names, own, strict=True))
+        ]
+
+    def _unique(self, name: str) -> str:
+        number, found = 1, name
+        while found in self._names:
+            number += 1
+            found = f"{name}:{number}"
+        self._names.add(found)
         return found
 
 
@@ -147,12 +142,3 @@ class CutPrototypes(Prototypes):
 def _look(look: Appearance, faces: list[int]) -> Appearance:
     """The colours of a piece. faces: which face of the part each of its own was; -1: none."""
     return Appearance(look.whole, {k: look.faces[of] for k, of in enumerate(faces) if of in look.faces})
-
-
-def _unique(name: str, known: set[str]) -> str:
-    number, found = 1, name
-    while found in known:
-        number += 1
-        found = f"{name}:{number}"
-    known.add(found)
-    return found

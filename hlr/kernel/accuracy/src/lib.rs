@@ -22,6 +22,8 @@ pub const MESH_SHORTEST: f64 = 2.0;
 pub const MESH_BESIDE_BORDER: f64 = 1.25;
 /// Of the chord error asked for: for so much a face is meshed whose steps run out before it has any mesh.
 pub const MESH_COARSER: f64 = 16.0;
+/// Of the chord error of the coarse mesh that leads a cut: how far a surface may bulge beyond it.
+pub const CUT_BULGE: f64 = 2.0;
 /// Of the chord error, over all of the area: by how much the volume of a cut body may differ from that of the mesh below
 /// the plane.
 pub const CUT_DISPLACED: f64 = 3.0;

@@ -2,12 +2,14 @@
 
 use rustc_hash::FxHashMap;
 
+use crate::bounds::EMPTY;
 use crate::copies::mark_copies;
 use crate::explore::{Part, PlacedEdge, PlacedFace, PlacedUse};
-use crate::format::{Locations, SurfaceRecord, moved};
+use crate::format::{Locations, Orientation, SurfaceRecord, moved};
 use crate::geometry::curve::Curve;
 use crate::geometry::moved_surface;
 use crate::geometry::surface::Surface;
+use crate::geometry::vector::{length, sub};
 use crate::model::Model;
 use crate::part_topology::part_topology;
 use crate::shapes::{Edge, Face, Use, Vertex};
@@ -99,6 +101,43 @@ impl Body {
         }
         Ok(Body { edges, faces, curves2, solids: model.parts[number].solids })
     }
+
+    /// Whether each edge is used as often in one sense as in the other.
+    pub fn is_closed(&self) -> bool {
+        let mut sums = vec![0i32; self.edges.len()];
+        for face in &self.faces {
+            for used in face.face.wires.iter().flatten() {
+                sums[used.edge as usize] += sense(used.orientation, face.reversed);
+            }
+        }
+        !self.faces.is_empty() && sums.iter().zip(&self.edges).all(|(sum, edge)| *sum == 0 || edge.degenerate)
+    }
+
+    /// The diagonal of the box around the edges' ends and some points between them.
+    pub fn size(&self) -> f64 {
+        let [mut low, mut high] = EMPTY;
+        for edge in &self.edges {
+            let [first, last] = edge.range;
+            let between = |quarter: f64| edge.curve.as_ref().map(|curve| curve.point(first + quarter * (last - first)));
+            let points = edge.end_points.into_iter().chain([0.25, 0.5, 0.75].map(between));
+            for p in points.flatten() {
+                for k in 0..3 {
+                    (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
+                }
+            }
+        }
+        length(&sub(&high, &low))
+    }
+}
+
+/// 1 where a face with this orientation uses an edge in its sense, -1 where against it, 0 where it does not bound it.
+pub fn sense(orientation: Orientation, reversed: bool) -> i32 {
+    let along = match orientation {
+        Orientation::Forward => 1,
+        Orientation::Reversed => -1,
+        _ => 0,
+    };
+    if reversed { -along } else { along }
 }
 
 /// A model of bodies, one part each. Without classes of edges it can be meshed, but not drawn.

@@ -81,20 +81,9 @@ mod tests {
     /// A half circle of this radius from (1, 0) to (-1, 0), or back.
     fn arc(radius: f64, back: bool) -> Edge {
         let way = if back { -1.0 } else { 1.0 };
-        Edge {
-            curve: Some(Curve::Ellipse { p: [0.0; 3], a: [way * radius, 0.0, 0.0], b: [0.0, radius, 0.0] }),
-            range: [0.0, std::f64::consts::PI],
-            tolerance: 1e-7,
-            degenerate: false,
-            ends: if back { [Some((1, 0)), Some((0, 0))] } else { [Some((0, 0)), Some((1, 0))] },
-            end_points: [None; 2],
-            tangent: false,
-            on: Vec::new(),
-            polygon: None,
-            only_on: None,
-            joints: Vec::new(),
-            original: None,
-        }
+        let curve = Curve::Ellipse { p: [0.0; 3], a: [way * radius, 0.0, 0.0], b: [0.0, radius, 0.0] };
+        let ends = if back { [(1, 0), (0, 0)] } else { [(0, 0), (1, 0)] };
+        Edge::on_curve(curve, [0.0, std::f64::consts::PI], ends, 1e-7)
     }
 
     fn between(edges: [u32; 2]) -> Face {

@@ -25,6 +25,7 @@ pub mod model;
 pub mod one_sphere;
 pub mod part_topology;
 pub mod reach;
+pub mod sets;
 pub mod shapes;
 pub mod tangency;
 pub mod tessellate;

@@ -71,6 +71,24 @@ pub struct Use {
 }
 
 impl Edge {
+    /// An edge on a curve in space, with its first and last vertex.
+    pub fn on_curve(curve: Curve, range: [f64; 2], ends: [Vertex; 2], tolerance: f64) -> Edge {
+        Edge {
+            curve: Some(curve),
+            range,
+            tolerance,
+            degenerate: false,
+            ends: ends.map(Some),
+            end_points: [None; 2],
+            tangent: false,
+            on: Vec::new(),
+            polygon: None,
+            only_on: None,
+            joints: Vec::new(),
+            original: None,
+        }
+    }
+
     /// First and last vertex; a missing vertex is replaced by one of the edge's own.
     pub fn ends(&self, number: u32) -> [Vertex; 2] {
         self.ends.map(|end| end.unwrap_or((NO_VERTEX | number, 0)))

@@ -2,15 +2,15 @@
 
 use rustc_hash::FxHashMap;
 
+use super::builder::BodyBuilder;
 use super::caps::caps;
-use super::made::Made;
+use super::divided_body::{DividedBody, Left};
 use super::plane::Plane;
 use super::regions::Regions;
 use super::section_curve::section_curve;
 use super::separate::separate;
-use super::shares::{Share, Shares, sense};
 use super::trace::Section;
-use crate::body::{Body, BodyFace};
+use crate::body::{Body, BodyFace, sense};
 use crate::format::Orientation;
 use crate::shapes::{Edge, Face, Use};
 
@@ -18,18 +18,19 @@ use crate::shapes::{Edge, Face, Use};
 ///
 /// # Errors
 /// Why they cannot be put together.
-pub fn assembled(shares: &Shares, plane: &Plane, size: f64) -> Result<Option<Vec<Body>>, &'static str> {
-    let body = Body { curves2: shares.body.curves2.clone(), ..Body::default() };
-    let mut made = Made { body, on_plane: Vec::new(), sums: Vec::new() };
-    let mut pieces = EdgePieces { shares, known: FxHashMap::default() };
-    for (own, share) in shares.body.faces.iter().zip(shares.shares) {
-        let faces: Vec<Vec<Vec<Use>>> = match share {
-            Share::Gone => continue,
-            Share::Whole => {
+pub fn assembled(divided: &DividedBody, plane: &Plane) -> Result<Option<Vec<Body>>, &'static str> {
+    let size = divided.body.size();
+    let body = Body { curves2: divided.body.curves2.clone(), ..Body::default() };
+    let mut made = BodyBuilder { body, on_plane: Vec::new(), sums: Vec::new() };
+    let mut pieces = EdgePieces { divided, known: FxHashMap::default() };
+    for (own, left) in divided.body.faces.iter().zip(&divided.left) {
+        let faces: Vec<Vec<Vec<Use>>> = match left {
+            Left::Nothing => continue,
+            Left::Whole => {
                 let of_wire = |wire: &Vec<Use>| wire.iter().flat_map(|used| pieces.uses(used, &mut made)).collect();
                 vec![own.face.wires.iter().map(of_wire).collect()]
             }
-            Share::Part(found) => {
+            Left::Part(found) => {
                 let (section, regions) = &**found;
                 let found = borders(&own.face, section, regions, &mut pieces, &mut made, plane, size)?;
                 found.into_iter().map(|wire| vec![wire]).collect()
@@ -43,7 +44,7 @@ pub fn assembled(shares: &Shares, plane: &Plane, size: f64) -> Result<Option<Vec
     if made.body.faces.is_empty() {
         return Ok(None);
     }
-    separate(made.body, shares).map(Some)
+    separate(made.body, divided).map(Some)
 }
 
 /// The borders of what is left of a face, one for each region: all in one wire, whose edges are put in order when it is
@@ -53,23 +54,23 @@ fn borders(
     section: &Section,
     regions: &Regions,
     pieces: &mut EdgePieces,
-    made: &mut Made,
+    made: &mut BodyBuilder,
     plane: &Plane,
     size: f64,
 ) -> Result<Vec<Vec<Use>>, &'static str> {
-    let shares = pieces.shares;
+    let divided = pieces.divided;
     let mut uses = vec![Vec::new(); regions.count as usize];
     // Pieces with no region beside them: what is left there of the face has no area.
     let mut flat = Vec::new();
     for used in face.wires.iter().flatten() {
-        let degenerate = shares.body.edges[used.edge as usize].degenerate;
+        let degenerate = divided.body.edges[used.edge as usize].degenerate;
         // Where the section ends at a pole, the line of the pole in (u, v) ends there, too: without an edge of its own, it
         // is as long as it has to be.
         if degenerate && section.runs.iter().any(|run| run.ends.contains(&used.ends[0].0)) {
             continue;
         }
-        let line = shares.guided.lines[used.edge as usize].as_ref().ok_or("an edge has no curve")?;
-        let kept = &shares.pieces[used.edge as usize].kept;
+        let line = divided.coarse.lines[used.edge as usize].as_ref().ok_or("an edge has no curve")?;
+        let kept = &divided.pieces[used.edge as usize].kept;
         for (piece, own) in kept.iter().zip(pieces.uses(used, made)) {
             match regions.of_piece(used, piece, line, degenerate) {
                 Some(region) => uses[region as usize].push(own),
@@ -94,29 +95,17 @@ fn borders(
     }
     let surface = face.surface.as_ref().ok_or("a face has no surface")?;
     for run in &section.runs {
-        let ends = run.ends.map(|vertex| pieces.shares.vertices[vertex as usize]);
+        let ends = run.ends.map(|vertex| divided.vertices[vertex as usize]);
         let found = section_curve(surface, run, ends, plane, size)?;
-        let edge = Edge {
-            curve: Some(found.curve),
-            range: found.range,
-            tolerance: plane.near,
-            degenerate: false,
-            ends: run.ends.map(|vertex| Some((vertex, 0))),
-            end_points: ends.map(Some),
-            tangent: false,
-            on: Vec::new(),
-            polygon: None,
-            only_on: None,
-            joints: Vec::new(),
-            original: None,
-        };
+        let of_run = run.ends.map(|vertex| (vertex, 0));
+        let mut edge = Edge::on_curve(found.curve, found.range, of_run, plane.near);
+        edge.end_points = ends.map(Some);
         let edge = made.add_edge(edge, true);
         let curve2 = found.curve2.map(|curve| {
             made.body.curves2.push(Some(curve));
             (made.body.curves2.len() - 1, found.range)
         });
-        let ends = run.ends.map(|vertex| (vertex, 0));
-        let own = Use { edge, location: 0, place: None, orientation: Orientation::Forward, ends, curve2 };
+        let own = Use { edge, location: 0, place: None, orientation: Orientation::Forward, ends: of_run, curve2 };
         uses[run.region as usize].push(own);
     }
     Ok(uses)
@@ -124,15 +113,15 @@ fn borders(
 
 /// The pieces of edges that are kept, each made once.
 struct EdgePieces<'a> {
-    shares: &'a Shares<'a>,
+    divided: &'a DividedBody,
     known: FxHashMap<(u32, usize), u32>,
 }
 
 impl EdgePieces<'_> {
     /// The use of an edge by a face as uses of its pieces.
-    fn uses(&mut self, used: &Use, made: &mut Made) -> Vec<Use> {
-        let pieces = &self.shares.pieces[used.edge as usize];
-        let edge = &self.shares.body.edges[used.edge as usize];
+    fn uses(&mut self, used: &Use, made: &mut BodyBuilder) -> Vec<Use> {
+        let pieces = &self.divided.pieces[used.edge as usize];
+        let edge = &self.divided.body.edges[used.edge as usize];
         let mut out = Vec::with_capacity(pieces.kept.len());
         for (k, piece) in pieces.kept.iter().enumerate() {
             let number = *self.known.entry((used.edge, k)).or_insert_with(|| {
@@ -140,7 +129,7 @@ impl EdgePieces<'_> {
                 for (side, &vertex) in piece.ends.iter().enumerate() {
                     let is_own = edge.ends[side] == Some((vertex, 0)) && piece.range[side] == edge.range[side];
                     if !is_own {
-                        part.end_points[side] = Some(self.shares.vertices[vertex as usize]);
+                        part.end_points[side] = Some(self.divided.vertices[vertex as usize]);
                     }
                 }
                 made.add_edge(part, pieces.on)

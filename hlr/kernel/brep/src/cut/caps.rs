@@ -1,7 +1,7 @@
 //! The new faces on the plane: what edges with a face on one side only enclose there.
 
+use super::builder::BodyBuilder;
 use super::loops::{Side, faces};
-use super::made::Made;
 use super::plane::Plane;
 use crate::body::BodyFace;
 use crate::format::{Orientation, SurfaceRecord};
@@ -20,7 +20,7 @@ const THIN: f64 = 1e-8;
 ///
 /// # Errors
 /// Why they cannot be found.
-pub fn caps(made: &mut Made, plane: &Plane, size: f64) -> Result<(), &'static str> {
+pub fn caps(made: &mut BodyBuilder, plane: &Plane, size: f64) -> Result<(), &'static str> {
     let alone: Vec<usize> =
         (0..made.sums.len()).filter(|&i| made.sums[i] != 0 && !made.body.edges[i].degenerate).collect();
     let axes = plane.axes();

@@ -8,6 +8,7 @@ use super::plane::Plane;
 use crate::edges::Polyline;
 use crate::faces::Node;
 use crate::format::Orientation;
+use crate::sets::Sets;
 use crate::shapes::{Face, Use};
 use crate::tessellate::MeshedFace;
 
@@ -32,18 +33,18 @@ impl Regions {
         let mesh = &found.mesh;
         let below: Vec<bool> = mesh.points.iter().map(|p| plane.height(p) < -plane.near).collect();
         let is_below = |i: u32| below[i as usize];
-        let mut groups = Groups((0..below.len() as u32).collect());
+        let mut sets = Sets::new(below.len());
         let first_at_pole = poles(face, found, border.edges);
         for (&point, &first) in &first_at_pole {
             if is_below(point) {
-                groups.unite(point, first);
+                sets.unite(point as usize, first as usize);
             }
         }
         let mut sides: FxHashSet<(u32, u32)> = FxHashSet::default();
         for (a, b) in mesh.triangles.iter().flat_map(sides_of) {
             sides.insert((a, b));
             if is_below(a) && is_below(b) {
-                groups.unite(a, b);
+                sets.unite(a as usize, b as usize);
             }
         }
         // What borders the regions, by one of their corners.
@@ -69,13 +70,13 @@ impl Regions {
         // A face goes on across its seam.
         for (&(edge, chord, ahead), &corner) in &of_chord {
             if let (true, Some(&other)) = (ahead, of_chord.get(&(edge, chord, false))) {
-                groups.unite(corner, other);
+                sets.unite(corner as usize, other as usize);
             }
         }
-        let mut numbers: FxHashMap<u32, u32> = FxHashMap::default();
+        let mut numbers: FxHashMap<usize, u32> = FxHashMap::default();
         let mut number = |corner: u32| {
             let next = numbers.len() as u32;
-            *numbers.entry(groups.first(corner)).or_insert(next)
+            *numbers.entry(sets.first(corner as usize)).or_insert(next)
         };
         let of_corner = (0..below.len() as u32).map(|i| is_below(i).then(|| number(i))).collect();
         let once = once(face);
@@ -126,22 +127,4 @@ fn ends((a, b): (u32, u32), first_at_pole: &FxHashMap<u32, u32>) -> (u32, u32) {
 
 fn sides_of(t: &[u32; 3]) -> [(u32, u32); 3] {
     [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])]
-}
-
-/// Groups of corners, each by the number of one of them.
-struct Groups(Vec<u32>);
-
-impl Groups {
-    fn first(&mut self, mut at: u32) -> u32 {
-        while self.0[at as usize] != at {
-            self.0[at as usize] = self.0[self.0[at as usize] as usize];
-            at = self.0[at as usize];
-        }
-        at
-    }
-
-    fn unite(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.first(a), self.first(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
 }

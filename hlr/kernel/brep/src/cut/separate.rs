@@ -2,22 +2,24 @@
 
 use rustc_hash::FxHashMap;
 
-use super::shares::{Share, Shares};
+use super::divided_body::{DividedBody, Left};
+use super::enclosed::Enclosed;
 use crate::body::Body;
 use crate::bounds::{Box3, EMPTY};
-use crate::geometry::vector::{cross, dot, sub};
+use crate::geometry::vector::{dot, sub};
+use crate::sets::Sets;
 
 /// The pieces of a body, in the order of their first faces.
 ///
 /// # Errors
 /// A cavity has no piece around it.
-pub fn separate(body: Body, shares: &Shares) -> Result<Vec<Body>, &'static str> {
+pub fn separate(body: Body, divided: &DividedBody) -> Result<Vec<Body>, &'static str> {
     let piece_of = pieces(&body);
     let count = piece_of.iter().max().map_or(0, |last| last + 1);
     if count == 1 {
         return Ok(vec![with_faces(&body, &vec![0; body.faces.len()], 0)]);
     }
-    let volumes: Vec<f64> = (0..count).map(|piece| whole_volume(&body, &piece_of, piece, shares)).collect();
+    let volumes: Vec<f64> = (0..count).map(|piece| whole_volume(&body, &piece_of, piece, divided)).collect();
     let boxes: Vec<Box3> = (0..count).map(|piece| around(&body, &piece_of, piece)).collect();
     let mut home: Vec<usize> = (0..count).collect();
     for piece in 0..count {
@@ -33,49 +35,32 @@ pub fn separate(body: Body, shares: &Shares) -> Result<Vec<Body>, &'static str> 
 
 /// For each face the number of the piece that it belongs to: faces that share an edge belong together.
 fn pieces(body: &Body) -> Vec<usize> {
-    let mut lead: Vec<usize> = (0..body.faces.len()).collect();
-    fn find(lead: &mut [usize], mut at: usize) -> usize {
-        while lead[at] != at {
-            lead[at] = lead[lead[at]];
-            at = lead[at];
-        }
-        at
-    }
+    let mut sets = Sets::new(body.faces.len());
     let mut first: Vec<Option<usize>> = vec![None; body.edges.len()];
     for (i, own) in body.faces.iter().enumerate() {
         for used in own.face.wires.iter().flatten() {
             let other = *first[used.edge as usize].get_or_insert(i);
-            let (a, b) = (find(&mut lead, i), find(&mut lead, other));
-            lead[a.max(b)] = a.min(b);
+            sets.unite(i, other);
         }
     }
     let mut numbers: FxHashMap<usize, usize> = FxHashMap::default();
     (0..body.faces.len())
         .map(|i| {
             let next = numbers.len();
-            *numbers.entry(find(&mut lead, i)).or_insert(next)
+            *numbers.entry(sets.first(i)).or_insert(next)
         })
         .collect()
 }
 
 /// Six times the volume of a piece whose faces were not cut; 0 for one with faces that were.
-fn whole_volume(body: &Body, piece_of: &[usize], piece: usize, shares: &Shares) -> f64 {
-    let mut sum = 0.0;
+fn whole_volume(body: &Body, piece_of: &[usize], piece: usize, divided: &DividedBody) -> f64 {
+    let mut sum = Enclosed::seen_from(divided.vertices.first().copied().unwrap_or_default());
     for (own, _) in body.faces.iter().zip(piece_of).filter(|(_, of)| **of == piece) {
-        let whole = own.of.filter(|&of| matches!(shares.shares[of as usize], Share::Whole));
+        let whole = own.of.filter(|&of| matches!(divided.left[of as usize], Left::Whole));
         let Some(of) = whole else { return 0.0 };
-        let mesh = &shares.guided.faces[of as usize].mesh;
-        let six: f64 = mesh
-            .triangles
-            .iter()
-            .map(|t| {
-                let [a, b, c] = t.map(|i| sub(&mesh.points[i as usize], &shares.vertices[0]));
-                dot(&a, &cross(&b, &c))
-            })
-            .sum();
-        sum += if own.reversed { -six } else { six };
+        sum.add(&divided.coarse.faces[of as usize], own.reversed);
     }
-    sum
+    sum.volume
 }
 
 fn around(body: &Body, piece_of: &[usize], piece: usize) -> Box3 {

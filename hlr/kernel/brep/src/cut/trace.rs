@@ -30,7 +30,7 @@ const APART: f64 = 3.0;
 /// the vertex of an edge is from where the line passes the edge's chord; `region`: that to its left, in or
 /// beside the triangle which it enters there.
 #[derive(Clone, Copy, Debug)]
-struct Zero {
+struct Passing {
     uv: [f64; 2],
     point: Vector,
     node: Option<Node>,
@@ -129,7 +129,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// The lines through the face, and whether they close within it: first those that begin at its border.
-    fn lines(&self) -> Result<Vec<(Vec<Zero>, bool)>, &'static str> {
+    fn lines(&self) -> Result<Vec<(Vec<Passing>, bool)>, &'static str> {
         let mut out = Vec::new();
         let mut used = vec![false; self.entries.len()];
         let mut is_next = vec![false; self.entries.len()];
@@ -146,21 +146,21 @@ impl<'a> Tracer<'a> {
             let [a, b, _] = self.entries[first];
             let open = !is_next[first];
             let region = |entry: usize| self.regions.beside(&self.entries[entry]);
-            let begin = if open { self.border_zero([a, b])? } else { self.zero([a, b]) };
-            let mut line = vec![Zero { region: region(first), ..begin }];
+            let begin = if open { self.border_passing([a, b])? } else { self.passing([a, b]) };
+            let mut line = vec![Passing { region: region(first), ..begin }];
             let mut at = first;
             loop {
                 used[at] = true;
                 let side = self.leaving(&self.entries[at]);
                 match self.entered.get(&self.side(side)) {
                     None => {
-                        line.push(self.border_zero(side)?);
+                        line.push(self.border_passing(side)?);
                         break;
                     }
                     Some(&next) if next == first => break,
                     Some(&next) if used[next] => return Err("its mesh cannot be followed"),
                     Some(&next) => {
-                        line.push(Zero { region: region(next), ..self.zero(side) });
+                        line.push(Passing { region: region(next), ..self.passing(side) });
                         at = next;
                     }
                 }
@@ -180,35 +180,35 @@ impl<'a> Tracer<'a> {
     }
 
     /// Where a line passes a side within the face.
-    fn zero(&self, [a, b]: [u32; 2]) -> Zero {
+    fn passing(&self, [a, b]: [u32; 2]) -> Passing {
         let mesh = &self.found.mesh;
         let [from, to] = [a, b].map(|i| mesh.uv[i as usize]);
         if self.plane.holds(&mesh.points[a as usize]) {
             let node = self.node(a);
             let vertex = if let Some(Node::Vertex((vertex, _))) = node { Some(vertex) } else { None };
-            return Zero { uv: from, point: mesh.points[a as usize], node, vertex, gap: 0.0, region: None };
+            return Passing { uv: from, point: mesh.points[a as usize], node, vertex, gap: 0.0, region: None };
         }
         let at = |t: f64| [0, 1].map(|k| from[k] + t * (to[k] - from[k]));
         let uv = at(bracketed(|t| self.plane.height(&self.surface.point(at(t))), 0.0, 1.0));
-        Zero { uv, point: self.surface.point(uv), node: None, vertex: None, gap: 0.0, region: None }
+        Passing { uv, point: self.surface.point(uv), node: None, vertex: None, gap: 0.0, region: None }
     }
 
     /// The same at the border, where an edge has a vertex.
-    fn border_zero(&self, side: [u32; 2]) -> Result<Zero, &'static str> {
+    fn border_passing(&self, side: [u32; 2]) -> Result<Passing, &'static str> {
         let unknown = "its border cannot be followed";
         let (from, to) = (self.node(side[0]).ok_or(unknown)?, self.node(side[1]).ok_or(unknown)?);
         let chord = self.border.chord(self.face, from, to).ok_or(unknown)?;
         let vertex = self.border.vertex(chord).ok_or(unknown)?;
-        let zero = self.zero(side);
+        let passing = self.passing(side);
         let point = self.vertices[vertex as usize];
-        let uv = near(self.surface, &point, zero.uv).unwrap_or(zero.uv);
-        Ok(Zero { uv, point, vertex: Some(vertex), gap: length(&sub(&point, &zero.point)), ..zero })
+        let uv = near(self.surface, &point, passing.uv).unwrap_or(passing.uv);
+        Ok(Passing { uv, point, vertex: Some(vertex), gap: length(&sub(&point, &passing.point)), ..passing })
     }
 }
 
 /// Divides a line at vertices, and where it follows an edge on the plane.
 fn divide(
-    mut line: Vec<Zero>,
+    mut line: Vec<Passing>,
     closed: bool,
     face: &Face,
     border: &Border,
@@ -229,9 +229,9 @@ fn divide(
         if line.len() > 1 && line[0].node.is_some() && line[0].node == line[line.len() - 1].node {
             line.pop();
         }
-        let first = line.iter().position(|zero| zero.vertex.is_some());
+        let first = line.iter().position(|passing| passing.vertex.is_some());
         line.rotate_left(first.unwrap_or(0));
-        let size = line.iter().map(|zero| length(&sub(&zero.point, &line[0].point))).fold(0.0, f64::max);
+        let size = line.iter().map(|passing| length(&sub(&passing.point, &line[0].point))).fold(0.0, f64::max);
         if size <= TINY * plane.near || line.len() < 3 {
             return Ok(());
         }
@@ -241,7 +241,7 @@ fn divide(
         }
         line.push(line[0]);
     }
-    let along = |a: &Zero, b: &Zero| -> Option<Chord> {
+    let along = |a: &Passing, b: &Passing| -> Option<Chord> {
         let chord = border.chord(face, a.node?, b.node?)?;
         let edge = &border.edges[chord.0 as usize];
         (border.pieces[chord.0 as usize].on && edge.curve.is_some()).then_some(chord)
@@ -257,7 +257,7 @@ fn divide(
         {
             end += 1;
         }
-        let [first, last] = [&line[begin], &line[end]].map(|zero| zero.vertex);
+        let [first, last] = [&line[begin], &line[end]].map(|passing| passing.vertex);
         let (Some(first), Some(last)) = (first, last) else {
             return Err("an edge lies partly in the plane");
         };
@@ -270,9 +270,9 @@ fn divide(
         } else {
             let points = apart_from_ends(&line[begin..=end]);
             let away = |p: &Vector| length(&sub(p, &points[0].1));
-            let size = line[begin..=end].iter().map(|zero| away(&zero.point)).fold(0.0, f64::max);
+            let size = line[begin..=end].iter().map(|passing| away(&passing.point)).fold(0.0, f64::max);
             if first != last || size > TINY * plane.near {
-                let region = line[begin..end].iter().find_map(|zero| zero.region);
+                let region = line[begin..end].iter().find_map(|passing| passing.region);
                 let region = region.ok_or("what is left of a face is too narrow")?;
                 out.runs.push(Run { region, ends: [first, last], points });
             }
@@ -284,10 +284,11 @@ fn divide(
 
 /// The points of a line but those beside its ends: the mesh passes the vertex of an edge on the edge's chord, and its
 /// points closer by may lie behind the vertex.
-fn apart_from_ends(line: &[Zero]) -> Vec<([f64; 2], Vector)> {
+fn apart_from_ends(line: &[Passing]) -> Vec<([f64; 2], Vector)> {
     let last = line.len() - 1;
-    let far =
-        |zero: &Zero| [&line[0], &line[last]].iter().all(|end| length(&sub(&zero.point, &end.point)) > APART * end.gap);
-    let kept = line.iter().enumerate().filter(|&(k, zero)| k == 0 || k == last || far(zero));
-    kept.map(|(_, zero)| (zero.uv, zero.point)).collect()
+    let far = |passing: &Passing| {
+        [&line[0], &line[last]].iter().all(|end| length(&sub(&passing.point, &end.point)) > APART * end.gap)
+    };
+    let kept = line.iter().enumerate().filter(|&(k, passing)| k == 0 || k == last || far(passing));
+    kept.map(|(_, passing)| (passing.uv, passing.point)).collect()
 }

@@ -6,6 +6,10 @@
 use super::orientation::Orientation;
 use super::tokens::{Damaged, FLAGS, Read, Table, Tokens};
 
+/// How much the square of a direction's length may differ from 1: OpenCASCADE writes unit vectors. With another length, a
+/// surface would be as flat as no mesher can follow.
+const LENGTHENED: f64 = 1e-6;
+
 pub struct Bytes<'a> {
     all: &'a [u8],
     at: usize,
@@ -138,15 +142,17 @@ impl Tokens for Bytes<'_> {
     }
 
     fn direction<const N: usize>(&mut self) -> Read<[f64; N]> {
-        self.reals()
+        let found: [f64; N] = self.reals()?;
+        let square: f64 = found.iter().map(|c| c * c).sum();
+        if (square - 1.0).abs() <= LENGTHENED { Ok(found) } else { self.fault("a direction whose length is not 1") }
     }
 
     fn axes(&mut self, _either: bool) -> Read<[[f64; 3]; 3]> {
-        Ok([self.reals()?, self.reals()?, self.reals()?])
+        Ok([self.direction()?, self.direction()?, self.direction()?])
     }
 
     fn plane_axes(&mut self) -> Read<[[f64; 2]; 2]> {
-        Ok([self.reals()?, self.reals()?])
+        Ok([self.direction()?, self.direction()?])
     }
 
     fn placement(&mut self) -> Read<[[f64; 4]; 3]> {

@@ -200,6 +200,22 @@ fn a_root_among_no_shapes_is_an_error() {
 }
 
 #[test]
+fn a_direction_that_is_no_unit_vector_is_damage() {
+    let ones =
+        |bytes: &[u8]| (0..bytes.len() - 8).filter(|&at| bytes[at..at + 8] == 1f64.to_le_bytes()).collect::<Vec<_>>();
+    let mut refused = 0;
+    for bytes in CYLINDERS {
+        for at in ones(bytes) {
+            let mut changed = bytes.to_vec();
+            changed[at..at + 8].copy_from_slice(&2f64.powi(-32).to_le_bytes());
+            refused +=
+                usize::from(read(&changed).is_err_and(|damage| damage.what == "a direction whose length is not 1"));
+        }
+    }
+    assert!(refused > 10, "{refused}");
+}
+
+#[test]
 fn a_rounded_direction_is_a_unit_vector_again() {
     let text = b"CASCADE Topology V1, (c) Matra-Datavision\nLocations 0\nCurve2ds 0\nCurves 2\n\
                  1 0 0 0 2 0 0\n2 0 0 0 0 0 1 1 1e-3 1e-3 0 1 0 5\n";

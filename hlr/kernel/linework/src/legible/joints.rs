@@ -7,6 +7,7 @@ use rustc_hash::FxHashSet;
 use super::grid::rounded;
 use crate::fit::plane::{Vec2, dot, length, minus};
 use crate::lines::drawing::{Line, Lines};
+use hlr_brep::sets::Sets;
 
 /// Lines go on from one another where they turn by at most 30 degrees: the cosine.
 const STRAIGHT: f64 = 0.866;
@@ -32,7 +33,7 @@ pub fn joined(
     tolerance: f64,
     straight: bool,
 ) -> Vec<usize> {
-    let mut sets = Sets((0..lines.0.len()).collect());
+    let mut sets = Sets::new(lines.0.len());
     let ends: Vec<End> =
         lines.0.par_iter().enumerate().filter(|(i, _)| chosen(*i)).flat_map_iter(|(i, line)| ends(i, line)).collect();
     let all = ends.iter().all(|end| sought(end.line));
@@ -62,7 +63,7 @@ pub fn joined(
             }
         }
     }
-    (0..lines.0.len()).map(|i| sets.root(i)).collect()
+    (0..lines.0.len()).map(|i| sets.first(i)).collect()
 }
 
 /// Both ends of a line, and where it leaves to from each; none of a line that is a point.
@@ -76,22 +77,4 @@ fn end(line: usize, visible: bool, mut points: impl Iterator<Item = Vec2>) -> Op
     let at = points.next()?;
     let way = minus(&points.find(|p| *p != at)?, &at);
     Some(End { line, visible, at, away: way.map(|c| c / length(&way)) })
-}
-
-/// Sets that are united; the least member stands for each.
-struct Sets(Vec<usize>);
-
-impl Sets {
-    fn root(&mut self, mut i: usize) -> usize {
-        while self.0[i] != i {
-            self.0[i] = self.0[self.0[i]];
-            i = self.0[i];
-        }
-        i
-    }
-
-    fn unite(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b)] = a.min(b);
-    }
 }

@@ -11,6 +11,7 @@ use rustc_hash::FxHashMap;
 
 use super::Polyline;
 use hlr_accuracy::SPECK_DOT;
+use hlr_brep::sets::Sets;
 
 pub fn drop_specks(lines: &mut Vec<Polyline>, shortest: f64) {
     drop_dots(lines, SPECK_DOT * shortest);
@@ -77,23 +78,15 @@ struct Figures {
 impl Figures {
     /// The figures that the chosen lines make up; lengths: of all lines.
     fn of(lines: &[Polyline], chosen: &[usize], lengths: &[f64]) -> Figures {
-        fn root(group: &mut [usize], mut i: usize) -> usize {
-            while group[i] != i {
-                group[i] = group[group[i]];
-                i = group[i];
-            }
-            i
-        }
-        let mut group: Vec<usize> = (0..chosen.len()).collect();
+        let mut sets = Sets::new(chosen.len());
         let mut at = FxHashMap::default();
         for (k, &i) in chosen.iter().enumerate() {
             for end in ends(&lines[i]) {
                 let other = *at.entry(end).or_insert(k);
-                let (a, b) = (root(&mut group, k), root(&mut group, other));
-                group[a.max(b)] = a.min(b);
+                sets.unite(k, other);
             }
         }
-        let figure: Vec<usize> = (0..chosen.len()).map(|k| root(&mut group, k)).collect();
+        let figure: Vec<usize> = (0..chosen.len()).map(|k| sets.first(k)).collect();
         let mut sum = vec![0.0; chosen.len()];
         for (&f, &i) in figure.iter().zip(chosen) {
             sum[f] += lengths[i];

@@ -19,6 +19,7 @@ use super::face::{Face, root};
 use super::{Model, TIE};
 use hlr_accuracy::OUTLINE_WRINKLE;
 use hlr_brep::geometry::vector::{length, sub};
+use hlr_brep::sets::Sets;
 
 /// Two nodes that an edge inside of a face joins.
 struct Tie {
@@ -33,14 +34,14 @@ struct Tie {
 pub fn flatten(model: &Model, values: &mut [f64]) {
     let ties = ties(model, values);
     let away = |n: u32| values[n as usize] >= -TIE;
-    let mut patches = Patches((0..values.len() as u32).collect());
+    let mut patches = Sets::new(values.len());
     for tie in &ties {
         let [a, b] = tie.nodes;
         if away(a) == away(b) {
-            patches.join(a, b);
+            patches.unite(a as usize, b as usize);
         }
     }
-    let patch: Vec<usize> = (0..values.len() as u32).map(|n| patches.root(n) as usize).collect();
+    let patch: Vec<usize> = (0..values.len()).map(|n| patches.first(n)).collect();
     // A patch that rises above the tolerance anywhere is no wrinkle. Zeros are decided by the rule for ties.
     let mut wide = vec![false; values.len()];
     let mut rim = vec![false; values.len()];
@@ -138,22 +139,4 @@ fn ties(model: &Model, values: &[f64]) -> Vec<Tie> {
         .chunk_by(|x, y| x == y)
         .map(|same| Tie { nodes: [same[0].1, same[0].2], face: same[0].0, border: same.len() == 1 })
         .collect()
-}
-
-/// Sets of connected nodes.
-struct Patches(Vec<u32>);
-
-impl Patches {
-    fn root(&mut self, mut n: u32) -> u32 {
-        while self.0[n as usize] != n {
-            self.0[n as usize] = self.0[self.0[n as usize] as usize];
-            n = self.0[n as usize];
-        }
-        n
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
 }

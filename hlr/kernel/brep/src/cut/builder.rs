@@ -1,18 +1,17 @@
 //! A body while it is put together.
 
-use super::shares::sense;
-use crate::body::{Body, BodyFace};
+use crate::body::{Body, BodyFace, sense};
 use crate::shapes::Edge;
 
 /// What is made so far. `on_plane` and `sums`: by edge, whether it lies on the plane, and how often faces use it in its
 /// sense, those against it subtracted.
-pub struct Made {
+pub struct BodyBuilder {
     pub body: Body,
     pub on_plane: Vec<bool>,
     pub sums: Vec<i32>,
 }
 
-impl Made {
+impl BodyBuilder {
     pub fn add_edge(&mut self, edge: Edge, on_plane: bool) -> u32 {
         self.body.edges.push(edge);
         self.on_plane.push(on_plane);
