@@ -10,6 +10,8 @@ from typing import Any
 
 def is_real(value: Any) -> bool:
     """Whether it is a number that a float can hold; NaN and infinities are. True and False are no numbers."""
+    if type(value) is float:
+        return True
     if not isinstance(value, Real) or isinstance(value, bool):
         return False
     try:

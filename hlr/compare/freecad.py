@@ -28,7 +28,7 @@ from hlr.pipeline.draw import draw_views
 from hlr.request.directions import axes, directed
 from hlr.request.options import Chosen, View
 from hlr.source import open_source
-from hlr.source.model import missing_of_source
+from hlr.source.model import is_source
 from hlr.source.selection import open_selected
 
 if TYPE_CHECKING:
@@ -206,7 +206,7 @@ def _is_read(model: Any) -> bool:
 def _name(model: Any) -> str:
     if isinstance(model, str | os.PathLike):
         return Path(model).name
-    return "the model" if missing_of_source(model) else str(model.name)
+    return str(model.name) if is_source(model) else "the model"
 
 
 def _file_for_freecad(model: Any, name: str, folder: Path) -> Path:

@@ -71,8 +71,9 @@ class Page:
 def lay_out(picture: ViewportDrawing, options: PictureOptions) -> Page:
     """Size, scale and place of a drawing as CadQuery chooses them."""
     drawing = picture.drawing
-    whole = held(drawing.lines)
-    drawing = replace(drawing, lines=Lines(whole.chosen(whole.visible() | (whole.kinds() != EdgeClass.SMOOTH))))
+    if drawing.counters["smooth_lines"]:
+        whole = held(drawing.lines)
+        drawing = replace(drawing, lines=Lines(whole.chosen(whole.visible() | (whole.kinds() != EdgeClass.SMOOTH))))
     x0, y0, x1, y1 = drawing.bounds
     scale = options.unit_scale(x1 - x0, y1 - y0)
     width, height = options.size(x1 - x0, y1 - y0)

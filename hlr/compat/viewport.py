@@ -11,7 +11,7 @@ import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
@@ -26,7 +26,7 @@ from hlr.errors import OptionError
 from hlr.pipeline.draw import draw_views
 from hlr.request.accuracy import DEFAULT_ACCURACY, SMALL_GEOMETRY
 from hlr.request.check import WIDEST
-from hlr.request.directions import normalized
+from hlr.request.directions import axes, normalized
 from hlr.request.options import Options, Perspective, Vector
 from hlr.source import open_source
 from hlr.source.model import Source
@@ -79,10 +79,16 @@ def viewport_along(direction: Any, what: str, focus: float | None = None, up: An
     normalized(given, what)
     if up is not None:
         return Viewport((0.0, 0.0, 0.0), given, check_vector(up, "up"), focus)
+    return Viewport((0.0, 0.0, 0.0), given, _usual_up(given), focus)
+
+
+@lru_cache(maxsize=64)
+def _usual_up(direction: Vector) -> Vector:
+    """OpenCASCADE's default up direction of a projector."""
     from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
 
-    usual = gp_Ax2(gp_Pnt(), gp_Dir(*given)).YDirection()
-    return Viewport((0.0, 0.0, 0.0), given, (usual.X(), usual.Y(), usual.Z()), focus)
+    usual = gp_Ax2(gp_Pnt(), gp_Dir(*direction)).YDirection()
+    return (usual.X(), usual.Y(), usual.Z())
 
 
 def draw_viewport(
@@ -126,7 +132,9 @@ def draw_viewport(
     for note in drawing.notes:
         if note.is_warning:  # remarks are about the page and the file
             warnings.warn(str(note), stacklevel=_caller_level())
-    drawing = replace(drawing, lines=_lines_with_seams(drawing, opened, seam))
+    lines = _lines_with_seams(drawing, opened, seam)
+    if lines is not drawing.lines:
+        drawing = replace(drawing, lines=lines)
     shift = np.array(drawing.origin)
     if perspective is None:
         # In perspective the axis through the eye is the origin of the plane already.
@@ -141,10 +149,10 @@ def _lines_with_seams(drawing: Drawing, opened: Source, seam: bool) -> Sequence[
     """
     from hlr.source.cad.brep_source import BrepSource
 
+    if not drawing.counters["smooth_lines"] or not isinstance(opened, BrepSource):
+        return drawing.lines
     whole = held(drawing.lines)
     smooth = np.flatnonzero(whole.kinds() == EdgeClass.SMOOTH)
-    if not isinstance(opened, BrepSource) or not len(smooth):
-        return drawing.lines
     from OCP.BRep import BRep_Tool
     from OCP.GeomAbs import GeomAbs_Shape
 
@@ -168,12 +176,12 @@ def _lines_with_seams(drawing: Drawing, opened: Source, seam: bool) -> Sequence[
 
 def flat_extent(bounds: Floats, viewport: Viewport) -> tuple[float, float]:
     """Width and height of a model's box (2, 3) in the viewport's plane, by parallel rays."""
-    normal = np.array(normalized(viewport.direction, "the view direction"))
-    right = np.cross(viewport.up, normal)
-    right /= math.sqrt(float((right * right).sum()))
-    axes = np.stack([right, np.cross(normal, right)])
-    width, height = (np.abs(axes) * (bounds[1] - bounds[0])).sum(axis=1).tolist()
-    return float(width), float(height)
+    low, high = bounds.tolist()
+    width, height = (
+        sum(abs(a) * (upper - lower) for a, lower, upper in zip(axis, low, high, strict=True))
+        for axis in axes(normalized(viewport.direction, "the view direction"), viewport.up)
+    )
+    return width, height
 
 
 def check_vector(value: Any, what: str) -> Vector:
@@ -214,4 +222,4 @@ def _default_accuracy(bounds: Floats) -> float:
 
 
 def _dot(a: Sequence[float], b: Sequence[float]) -> float:
-    return sum(x * y for x, y in zip(a, b, strict=True))
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

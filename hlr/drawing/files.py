@@ -55,7 +55,7 @@ def check_writable(path: Path, make_folder: bool = False) -> os.stat_result | No
     if not os.access(path, os.W_OK):
         raise WriteError(f"cannot write {path}: the file is write-protected")
     if stat.S_ISREG(there.st_mode):
-        _check_folder(Path(os.path.realpath(path)) if path.is_symlink() else path, False)
+        _check_folder(Path(os.path.realpath(path)) if os.path.islink(path) else path, False)
     check_model(path)
     return there
 
@@ -65,9 +65,9 @@ def _check_folder(path: Path, make_folder: bool) -> None:
     folder = path.parent
     if make_folder:
         folder = next((above for above in (folder, *folder.parents) if above.exists()), folder)
-    if not folder.exists():
-        raise WriteError(f"cannot write {path}: the folder {folder} does not exist; create it first")
-    if not folder.is_dir():
+    if not os.path.isdir(folder):
+        if not folder.exists():
+            raise WriteError(f"cannot write {path}: the folder {folder} does not exist; create it first")
         raise WriteError(f"cannot write {path}: {folder} is not a folder")
     if not os.access(folder, os.W_OK | os.X_OK):
         raise WriteError(f"cannot write {path}: no permission to write into the folder {folder}")

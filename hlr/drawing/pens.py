@@ -104,8 +104,19 @@ def pens_of(drawing: Drawing) -> list[PenSet]:
     """Sets of parts that are drawn alike, each with its pens; every part is in one set."""
     style, area = drawing.style, drawing.area
     wide, narrow = widths_of(style, (area.width, area.height), drawing.group)
-    special = [rule for rule in style.lines if rule.parts is not None]
     usual = [rule for rule in style.lines if rule.parts is None]
+    sets = []
+    for own, parts in _alike(drawing, [rule for rule in style.lines if rule.parts is not None]).items():
+        rules = sorted((*usual, *own), key=lambda rule: rule.weight)
+        sets.append(PenSet(tuple(parts), tuple(rules), wide, narrow))
+    return sets
+
+
+def _alike(drawing: Drawing, special: Sequence[LineRule]) -> dict[tuple[LineRule, ...], Sequence[int]]:
+    """Parts that are drawn alike, by the rules of their own. special: rules that name parts."""
+    style = drawing.style
+    if drawing.parts and not special and style.part_colors != "lines":
+        return {(): range(len(drawing.parts))}
     alike: dict[tuple[LineRule, ...], list[int]] = {}
     for index, part in enumerate(drawing.parts):
         own = tuple(rule for rule in special if matches(_called(part, drawing), str(rule.parts)))
@@ -114,11 +125,7 @@ def pens_of(drawing: Drawing) -> list[PenSet]:
             # In place of the colour of all lines; what is said of hidden lines, or of a class, holds all the same.
             own = (LineRule(color=readable(color, style.background or "#ffffff")), *own)
         alike.setdefault(own, []).append(index)
-    sets = []
-    for own, parts in alike.items():
-        rules = sorted((*usual, *own), key=lambda rule: rule.weight)
-        sets.append(PenSet(tuple(parts), tuple(rules), wide, narrow))
-    return sets
+    return dict(alike)
 
 
 def _called(part: DrawnPart, drawing: Drawing) -> str:

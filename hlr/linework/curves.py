@@ -73,6 +73,9 @@ def guides(image: Image, plan: Plan, chains: _kernel.Chains, lines: Ints, edge_c
         number = np.where(round_.number >= 0, round_.number + len(own.kind), number).astype(np.int32)
         own, bulge = concatenate_curves(own, round_.curves), np.concatenate([bulge, round_.bulge])
     known = edge_curves is not None or len(own.kind) > 0
+    if not len(own.kind) and edge.max(initial=-1) < 0:
+        # All lines are straight.
+        return Guides(known, own, HERE, number, np.zeros(len(edge), np.int32), np.zeros(len(edge)), 0)
     sought = int(((edge >= 0) | (number >= 0))[lines].sum()) if known else 0
 
     curve, place = np.full(len(edge), -1, np.int32), np.zeros(len(edge), np.int32)

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, cast
 
 from hlr.errors import OptionError, SourceError
 from hlr.request.options import Parameter
-from hlr.source.model import Source, missing_of_source
+from hlr.source.model import Source, is_source, missing_of_source
 from hlr.tables.entry import listed
-from hlr.tables.readers import READERS, Reader, endings, of_ending, what_to_pass
+from hlr.tables.readers import Reader, endings, of_ending, of_objects, what_to_pass
 
 if TYPE_CHECKING:
     from hlr.source.cad.brep_source import BrepSource
@@ -46,19 +46,19 @@ def open_source(
             raise SourceError("the name of the source is empty: name a model file.")
         of_file = {"annotations": annotations, "hidden_objects": hidden_objects}
         return _open_path(Path(os.fspath(thing)), {"var": var, "parameters": parameters or None}, of_file)
-    missing = missing_of_source(thing)
-    if not missing:
+    if is_source(thing):
         opened: Source = thing
         return opened
     _only_of_scripts({"var": var, "parameters": parameters or None}, (), "an object")
-    reader = next((reader for reader in READERS.values() if reader.opens(thing)), None)
+    reader = next((reader for reader in of_objects() if reader.opens(thing)), None)
     if reader is not None:
         return _opened(reader, thing, type(thing).__name__)
-    raise SourceError(f"An object of type {type(thing).__name__} cannot be drawn: {_cure(missing)}.")
+    raise SourceError(f"An object of type {type(thing).__name__} cannot be drawn: {_cure(thing)}.")
 
 
-def _cure(missing: list[str]) -> str:
-    """What to pass instead of an object that nothing opens; missing: what it lacks of a source."""
+def _cure(thing: object) -> str:
+    """What to pass instead of an object that nothing opens."""
+    missing = list(missing_of_source(thing))
     if len(missing) <= FEW:
         return f"as a source (hlr.source.model.Source) it lacks {listed(missing, 'and')}"
     return f"pass {what_to_pass()}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -236,10 +236,16 @@ MEMBERS = tuple(name for name in vars(Source) if not name.startswith("_"))
 """The names that the protocol `Source` asks for."""
 
 
-def missing_of_source(thing: object) -> list[str]:
+def is_source(thing: object) -> bool:
+    """Whether an object follows the protocol `Source`."""
+    return next(missing_of_source(thing), None) is None
+
+
+def missing_of_source(thing: object) -> Iterator[str]:
     """What an object lacks of the protocol `Source`, by name; nothing is called, and no property read."""
-    places = [*map(vars, type(thing).__mro__), getattr(thing, "__dict__", ())]
-    there: set[str] = set().union(*places)
-    missing = [name for name in MEMBERS if name not in there]
+    places = [getattr(thing, "__dict__", ()), *map(vars, type(thing).__mro__)]
     # A proxy forwards the attributes that it does not have itself.
-    return [name for name in missing if not hasattr(type(thing), "__getattr__") or not hasattr(thing, name)]
+    forwards = hasattr(type(thing), "__getattr__")
+    for name in MEMBERS:
+        if not any(name in place for place in places) and not (forwards and hasattr(thing, name)):
+            yield name

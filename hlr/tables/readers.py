@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from hlr.tables.entry import called, listed
+from hlr.tables.entry import Table, called, listed
 
 BROKEN_FILE = (
     "{name} crashed OpenCASCADE ({reason}) while it was {doing}; nothing was written; the file is probably broken: "
@@ -32,7 +32,7 @@ class Reader:
     kind      of the sources that it opens: `Source.kind`
     entry     "module:function": opens a file, given by its path, or an object. The module is imported when it is used
     endings   of the files that it reads, in small letters; none for objects in memory
-    fits      "module:function": of objects in memory, whether it opens this one
+    fits      "module:function": whether it opens this object in memory; empty for files
     takes     what the entry is given besides, by name: kind; var and parameters, of a script; annotations and
               hidden_objects, whether what a file hides is read
     brep      sources have surfaces and edges, not only triangles
@@ -60,8 +60,8 @@ class Reader:
         return called(self.entry)(thing, **{name: given[name] for name in self.takes})
 
     def opens(self, thing: Any) -> bool:
-        """Whether it opens this object in memory."""
-        return bool(self.fits) and bool(called(self.fits)(thing))
+        """Whether it opens this object in memory; only where `fits` says so."""
+        return bool(called(self.fits)(thing))
 
 
 def _cad_file(title: str, kind: str, entry: str, endings: tuple[str, ...], takes: tuple[str, ...] = ()) -> Reader:
@@ -78,8 +78,8 @@ _MESHES = "hlr.source.mesh.mesh_file:open_mesh_file"
 _OBJECTS = "hlr.source.mesh.objects"
 _PACKED = "hlr.source.mesh.glb_3mf:open_glb_or_3mf"
 
-READERS: dict[str, Reader] = {
-    reader.title: reader
+READERS: Table[Reader] = Table(
+    (reader.title, reader)
     for reader in (
         _cad_file("STEP", "step", "hlr.source.cad.step:open_step", (".step", ".stp"), takes=("annotations",)),
         _cad_file("IGES", "iges", "hlr.source.cad.iges:open_iges", (".iges", ".igs")),
@@ -121,7 +121,7 @@ READERS: dict[str, Reader] = {
         Reader("a manifold3d object", "mesh", f"{_OBJECTS}:open_manifold", fits=f"{_OBJECTS}:is_manifold"),
         Reader("(vertices, faces)", "mesh", f"{_OBJECTS}:open_pair", fits=f"{_OBJECTS}:is_pair"),
     )
-}
+)
 """All readers, by title."""
 
 BESIDE = (".mtl", ".gltf")
@@ -130,8 +130,17 @@ BESIDE = (".mtl", ".gltf")
 
 def of_ending(ending: str) -> Reader | None:
     """The reader of files with this ending, of any case; None: there is none."""
-    ending = ending.lower()
-    return next((reader for reader in READERS.values() if ending in reader.endings), None)
+    return _by_ending().get(ending.lower())
+
+
+@READERS.derived
+def _by_ending() -> dict[str, Reader]:
+    """The first reader of each ending."""
+    found: dict[str, Reader] = {}
+    for reader in READERS.values():
+        for ending in reader.endings:
+            found.setdefault(ending, reader)
+    return found
 
 
 def endings() -> list[str]:
@@ -139,9 +148,24 @@ def endings() -> list[str]:
     return [ending for reader in READERS.values() for ending in reader.endings]
 
 
+@READERS.derived
+def of_objects() -> tuple[Reader, ...]:
+    """The readers of objects in memory."""
+    return tuple(reader for reader in READERS.values() if reader.fits)
+
+
+@READERS.derived
+def _by_kind() -> dict[str, Reader]:
+    """The first reader of each kind."""
+    found: dict[str, Reader] = {}
+    for reader in READERS.values():
+        found.setdefault(reader.kind, reader)
+    return found
+
+
 def of_kind(kind: str) -> Reader | None:
     """A reader that opens sources of this kind; None: there is none."""
-    return next((reader for reader in READERS.values() if reader.kind == kind), None)
+    return _by_kind().get(kind)
 
 
 def is_brep(kind: str) -> bool:
