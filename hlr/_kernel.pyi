@@ -152,12 +152,15 @@ class OwnFaces:
     ) -> OwnFaces: ...
 
 class Visibility:
-    """Visible and hidden pieces of edges, sorted by edge and parameter; arrays are read-only.
+    """Visible and hidden pieces of edges, as they are drawn, sorted by edge and parameter.
 
     edge (s,), t0 (s,), t1 (s,) from the edge's first to its second vertex on the image; state (s,): 0 visible, 1
     hidden, 2 hidden by less than the contact tolerance, 3 the same on the way to hidden; facing (t,): sign of each
     triangle's area on the image; counters of the work; seconds of each step, shared out where steps run side by side.
+    Made of arrays: pieces that are known already. ValueError where these do not fit.
     """
+
+    def __new__(cls, edge: Ints, t0: Floats, t1: Floats, state: Bytes, facing: npt.NDArray[np.int8]) -> Visibility: ...
 
     edge: Ints
     t0: Floats
@@ -173,6 +176,7 @@ def visibility(
     groups: Groups,
     role: Bytes,
     own: OwnFaces | None = None,
+    hidden: Bools | None = None,
     *,
     crossings: bool = True,
     piercings: bool = True,
@@ -181,7 +185,8 @@ def visibility(
 ) -> Visibility:
     """Decides which pieces of the edges are visible; projected (n, 3): x right, y up, z away from the viewer.
 
-    role (e,): 1 drawn, 2 drawn where it is a contour, 0 not drawn. crossings, piercings, pyramid: the steps to run, as
+    role (e,): 1 drawn, 2 drawn where it is a contour, 0 not drawn. hidden (e,): its own body hides it, so it has one
+    hidden piece, whatever its role. crossings, piercings, pyramid: the steps to run, as
     in `hlr.visibility.plan.Plan`. arithmetic: exact, f64 or f32. ValueError where shapes do not fit or a coordinate is
     not finite, KeyboardInterrupt within milliseconds of Ctrl-C.
     """
@@ -424,9 +429,8 @@ class Walks:
 class Chains:
     """Walks over mesh edges that become lines: those of the source, then contours of the mesh.
 
-    drawn: per line class, whether walks of it are drawn; triangle_part, triangle_face (t,); has_faces (parts,); facing
-    (t,) int8 and role (e,) uint8 as the visibility pass has them; found (s,): edges drawn or contours, ascending.
-    ValueError where they do not fit.
+    drawn: per line class, whether walks of it are drawn; triangle_part, triangle_face (t,); has_faces (parts,); role
+    (e,) uint8 as the visibility pass has it; found: what that pass found. ValueError where they do not fit.
     """
 
     def __new__(
@@ -438,9 +442,8 @@ class Chains:
         triangle_part: Ints,
         triangle_face: Ints,
         has_faces: Bools,
-        facing: npt.NDArray[np.int8],
         role: Bytes,
-        found: Ints,
+        found: Visibility,
     ) -> Chains: ...
     @property
     def offsets(self) -> Ints:
@@ -500,19 +503,19 @@ class LineTolerances:
 class Cut:
     """Lines on paper: pieces joined along chains, coincident lines merged, short figures dropped, vertices thinned out.
 
-    pieces: edge, start, end and state of the visibility pass, by edge; rank (c,) uint8: of coincident lines the lower
-    sixteen is drawn, of equal ones the nearer, then the lower; without_brep (c,): of a mesh without faces; hidden:
-    whether hidden lines are drawn; true_points (n, 3): those of the mesh, with the points of intersection lines on the
-    true surfaces. ValueError where they do not fit, KeyboardInterrupt within milliseconds of Ctrl-C.
+    ranks (k,) uint8, by line class: of coincident lines the lower sixteen is drawn, of equal ones the nearer, then the
+    lower; without_brep (parts,): a mesh without faces; hidden: whether hidden lines are drawn; true_points (n, 3):
+    those of the mesh, with the points of intersection lines on the true surfaces. ValueError where they do not fit,
+    KeyboardInterrupt within milliseconds of Ctrl-C.
     """
 
     def __new__(
         cls,
         camera: Camera,
         mesh: Mesh,
-        pieces: tuple[Ints, Floats, Floats, Bytes],
+        found: Visibility,
         chains: Chains,
-        rank: Bytes,
+        ranks: Bytes,
         without_brep: Bools,
         tolerances: LineTolerances,
         hidden: bool,

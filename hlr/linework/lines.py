@@ -40,19 +40,15 @@ def draw_lines(
     """
     per_model, tolerances = image.placement.per_model, image.placement.tolerances
     chains = _chains(image, plan, segments)
-    rank = ranks()[chains.kind]
-    if image.silhouettes is not None:
-        # Where a shaft's outline lies on that of its bore, the shaft's is drawn.
-        rank += image.silhouettes.hidden[chains.first]
     t = tolerances
     cut = _kernel.Cut(
         image.camera.scaled(per_model),
         segments.mesh,
-        (segments.edge, segments.t0, segments.t1, segments.state),
+        segments.found,
         chains,
-        rank,
+        ranks(),
         # The contours of meshes are smoothed; those of a B-rep's tessellation have no accuracy left for it.
-        np.array([p.faces == 0 for p in image.parts], bool)[chains.part],
+        np.array([p.faces == 0 for p in image.parts], bool),
         _kernel.LineTolerances(
             accuracy=t.accuracy,
             short=t.short,
@@ -107,7 +103,6 @@ def _chains(image: Image, plan: Plan, segments: Segments) -> _kernel.Chains:
         image.triangle_part,
         image.triangle_face,
         np.array([p.faces > 0 for p in image.parts], bool),
-        segments.facing,
         plan.role,
-        segments.edge,
+        segments.found,
     )

@@ -93,8 +93,9 @@ def finished(
     if not plan.crossings and counters["seeds"]:
         for name in ("crossing search", "piercing search"):
             planner.revised(name, True, "one convex body, but rounded its faces overlap in the image")
+    seconds = segments.seconds
     for name, steps in STEPS.items():
-        planner.spent(name, sum(segments.seconds[s] for s in steps))
+        planner.spent(name, sum(seconds[s] for s in steps))
     cuts = sum(sum(planner.cost(name).values()) for name in ("near clipping", "side clipping"))
     rescued = planner.cost("rescue of faces")
     return Drawing(

@@ -17,22 +17,44 @@ VISIBLE, HIDDEN, WITHIN, DIVING = 0, 1, 2, 3
 
 @dataclass(frozen=True, slots=True)
 class Segments:
-    """Pieces of mesh edges, sorted by edge and parameter.
+    """Pieces of mesh edges, sorted by edge and parameter. The kernel holds them.
 
-    edge (s,), t0 (s,), t1 (s,) from the edge's first to its second vertex on the image; state (s,) VISIBLE, HIDDEN or
-    WITHIN (hidden by less than the contact tolerance) or DIVING (the same, on the way to hidden); facing (t,) int8 of
-    every triangle; seconds of the kernel's steps. mesh, groups: what they were found on.
+    found: the pieces; mesh, groups: what they were found on.
     """
 
-    edge: Ints
-    t0: Floats
-    t1: Floats
-    state: npt.NDArray[np.uint8]
-    facing: npt.NDArray[np.int8]
-    counters: dict[str, int]
-    seconds: dict[str, float]
+    found: _kernel.Visibility
     mesh: _kernel.Mesh
     groups: _kernel.Groups
+
+    @property
+    def edge(self) -> Ints:
+        """(s,) the edge of each piece."""
+        return self.found.edge
+
+    @property
+    def t0(self) -> Floats:
+        """(s,) where each piece begins, from the edge's first to its second vertex on the image, 0 to 1."""
+        return self.found.t0
+
+    @property
+    def t1(self) -> Floats:
+        """(s,) where each piece ends."""
+        return self.found.t1
+
+    @property
+    def state(self) -> npt.NDArray[np.uint8]:
+        """(s,) VISIBLE, HIDDEN, WITHIN: hidden by less than the contact tolerance; DIVING: so, on the way to hidden."""
+        return self.found.state
+
+    @property
+    def counters(self) -> dict[str, int]:
+        """What the kernel counted."""
+        return self.found.counters
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """Of the kernel's steps."""
+        return self.found.seconds
 
 
 def solve(image: Image, plan: Plan, lifted: Floats, arithmetic: str = "exact") -> Segments:
@@ -59,35 +81,13 @@ def solve(image: Image, plan: Plan, lifted: Floats, arithmetic: str = "exact") -
         groups,
         plan.role,
         _own_faces(image),
+        None if image.silhouettes is None else image.silhouettes.hidden,
         crossings=plan.crossings,
         piercings=plan.piercings,
         pyramid=plan.pyramid,
         arithmetic=arithmetic,
     )
-    edge, t0, t1, state = found.edge, found.t0, found.t1, found.state
-    contacts = int(np.count_nonzero(state >= WITHIN))
-    if contacts:
-        # A line on a surface is above or below it by rounding alone: within the tolerance it is visible.
-        on_surface = (state >= WITHIN) & image.groups.tight[image.edge_group[edge]]
-        state = np.where(on_surface, np.uint8(VISIBLE), state)
-    if image.silhouettes is not None and image.silhouettes.hidden.any():
-        own = np.flatnonzero(image.silhouettes.hidden).astype(np.int32)
-        order = np.argsort(np.concatenate([edge, own]), kind="stable")
-        edge = np.concatenate([edge, own])[order]
-        t0 = np.concatenate([t0, np.zeros(len(own))])[order]
-        t1 = np.concatenate([t1, np.ones(len(own))])[order]
-        state = np.concatenate([state, np.full(len(own), HIDDEN, np.uint8)])[order]
-    return Segments(
-        edge=edge,
-        t0=t0,
-        t1=t1,
-        state=state,
-        facing=found.facing,
-        counters={**found.counters, "contacts": contacts},
-        seconds=found.seconds,
-        mesh=mesh,
-        groups=groups,
-    )
+    return Segments(found, mesh, groups)
 
 
 def _own_faces(image: Image) -> _kernel.OwnFaces | None:

@@ -72,6 +72,13 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
     mesh = _kernel.Mesh(space, np.zeros((0, 3), np.int32), edges, np.zeros(5, np.int32), nothing)
     one = np.zeros(1)
     groups = _kernel.Groups(nothing, np.zeros(4, np.int32), one == 1, one == 1, one, one, one == 1)
+    found = _kernel.Visibility(
+        np.array(drawn, np.int32),
+        np.zeros(3),
+        np.ones(3),
+        np.array([int(side == 1) for side in drawn], np.uint8),
+        np.zeros(0, np.int8),
+    )
     chains = _kernel.Chains(
         walks,
         [True] * 6,
@@ -80,19 +87,13 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
         nothing,
         nothing,
         np.zeros(1, bool),
-        np.zeros(0, np.int8),
         np.zeros(4, np.uint8),
-        nothing,
+        found,
     )
     cut = _kernel.Cut(
         _kernel.Camera((0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), None, 1.0),
         mesh,
-        (
-            np.array(drawn, np.int32),
-            np.zeros(3),
-            np.ones(3),
-            np.array([int(side == 1) for side in drawn], np.uint8),
-        ),
+        found,
         chains,
         np.zeros(1, np.uint8),
         np.zeros(1, bool),

@@ -1,95 +1,119 @@
-"""What is made of the kernel's answer: contacts counted, lines on surfaces, and silhouettes that are hidden anyway."""
+"""What the kernel is told of an image and a plan, and what it makes of contacts, lines on surfaces, hidden outlines."""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from hlr import _kernel
 from hlr.image.image import OwnFaces
 from hlr.visibility import segments
 from hlr.visibility.segments import DIVING, HIDDEN, VISIBLE, WITHIN
 
-STATES = [VISIBLE, WITHIN, HIDDEN, DIVING, WITHIN, DIVING]
-EDGES = [0, 0, 1, 1, 3, 3]
+ANSWER = SimpleNamespace(
+    edge=np.array([0, 0, 3], np.int32),
+    t0=np.array([0.0, 0.5, 0.25]),
+    t1=np.array([0.5, 1.0, 1.0]),
+    state=np.array([VISIBLE, WITHIN, HIDDEN], np.uint8),
+    counters={"seeds": 7},
+    seconds={"scan": 0.5},
+)
 
 
 @pytest.fixture
 def solve(monkeypatch):
-    """solve(tight, hidden, contact) on a kernel that always answers the same; .given: the groups it was told of."""
-    given = []
+    """solve(hidden, contact) on a kernel that always answers the same; .groups, .arguments: what it was told."""
+    groups, told = [], []
+    monkeypatch.setattr(segments._kernel, "Groups", lambda triangle, edge, **columns: groups.append(columns))
+    monkeypatch.setattr(segments._kernel, "visibility", lambda *given, **steps: told.append(given) or ANSWER)
 
-    def groups(triangle, edge, **columns):
-        given.append(columns)
-
-    def visibility(*arguments, **steps):
-        return SimpleNamespace(
-            edge=np.array(EDGES, np.int32),
-            t0=np.array([0.0, 0.5, 0.0, 0.25, 0.0, 0.75]),
-            t1=np.array([0.5, 1.0, 0.25, 1.0, 0.75, 1.0]),
-            state=np.array(STATES, np.uint8),
-            facing=np.array([1, -1], np.int8),
-            counters={"seeds": 7},
-            seconds={"scan": 0.5},
-        )
-
-    monkeypatch.setattr(segments._kernel, "visibility", visibility)
-    monkeypatch.setattr(segments._kernel, "Groups", groups)
-
-    def call(tight=(False, False), hidden=None, contact=True):
-        silhouettes = None if hidden is None else SimpleNamespace(hidden=np.array(hidden), own=OwnFaces.none())
-        scene = SimpleNamespace(
-            groups=SimpleNamespace(tight=np.array(tight)), edge_group=np.array([0, 1, 1, 0]), silhouettes=silhouettes
-        )
-        scene.triangle_group, scene.mesh = "triangle_group", lambda: "mesh"
+    def call(hidden=None, contact=True):
+        silhouettes = None if hidden is None else SimpleNamespace(hidden=hidden, own=OwnFaces.none())
+        image = SimpleNamespace(groups=SimpleNamespace(tight="tight"), edge_group="group", silhouettes=silhouettes)
+        image.triangle_group, image.mesh = "triangle_group", lambda: "mesh"
         plan = SimpleNamespace(delta=np.array([3, 4]), cap=np.array([5, 6]), contact=contact)
         for name in ("role", "cull", "sound", "crossings", "piercings", "pyramid"):
             setattr(plan, name, name)
-        return segments.solve(scene, plan, np.zeros((2, 3)))
+        return segments.solve(image, plan, np.zeros((2, 3)))
 
-    call.given = given
+    call.groups, call.arguments = groups, told
     return call
 
 
 def test_the_answer_is_handed_on(solve):
-    # As the kernel numbers them.
-    assert (segments.VISIBLE, segments.HIDDEN, segments.WITHIN, segments.DIVING) == (0, 1, 2, 3)
     found = solve()
-    assert found.edge.tolist() == EDGES and found.state.tolist() == STATES
-    assert found.t0.tolist() == [0.0, 0.5, 0.0, 0.25, 0.0, 0.75] and found.t1.tolist()[-2:] == [0.75, 1.0]
-    assert found.facing.tolist() == [1, -1] and found.seconds == {"scan": 0.5}
-    # Those hidden by less than the tolerance, on the way to hidden or not.
-    assert found.counters == {"seeds": 7, "contacts": 4}
+    assert found.edge.tolist() == [0, 0, 3] and found.state.tolist() == [VISIBLE, WITHIN, HIDDEN]
+    assert found.t0.tolist() == [0.0, 0.5, 0.25] and found.t1.tolist() == [0.5, 1.0, 1.0]
+    assert found.counters == {"seeds": 7} and found.seconds == {"scan": 0.5}
 
 
 def test_the_cap_counts_only_where_contact_does(solve):
     solve(), solve(contact=False)
-    assert [given["cap"].tolist() for given in solve.given] == [[5, 6], [0, 0]]
-    assert solve.given[0]["delta"].tolist() == [3, 4]
+    assert [given["cap"].tolist() for given in solve.groups] == [[5, 6], [0, 0]]
+    assert solve.groups[0]["delta"].tolist() == [3, 4] and solve.groups[0]["tight"] == "tight"
 
 
-def test_a_line_on_a_surface_is_never_nearly_hidden(solve):
-    # Edges 0 and 3 are of group 0, 1 of group 1.
-    assert solve((True, False)).state.tolist() == [VISIBLE, VISIBLE, HIDDEN, DIVING, VISIBLE, VISIBLE]
-    assert solve((False, True)).state.tolist() == [VISIBLE, WITHIN, HIDDEN, VISIBLE, WITHIN, DIVING]
-    assert solve((True, True)).counters["contacts"] == 4
+def test_the_kernel_is_told_which_outlines_are_hidden(solve):
+    hidden = np.array([False, True])
+    solve(hidden), solve(None)
+    assert solve.arguments[0][5] is hidden and solve.arguments[1][5] is None
 
 
-def test_silhouettes_that_are_hidden_come_where_their_edges_are(solve):
-    found = solve(hidden=[False, False, True, False])
-    assert found.edge.tolist() == [0, 0, 1, 1, 2, 3, 3]
-    assert found.t0.tolist() == [0.0, 0.5, 0.0, 0.25, 0.0, 0.0, 0.75]
-    assert found.t1.tolist() == [0.5, 1.0, 0.25, 1.0, 1.0, 0.75, 1.0]
-    assert found.state.tolist() == [*STATES[:4], HIDDEN, *STATES[4:]]
+# A square of two triangles, and a wire half of which lies 1 behind it; the view is along z.
+POINTS = np.array([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0], [2, 2, 1], [6, 2, 1], [0, 0, -64], [0, 0, 64]], float)
+TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
+WIRE = 5
+
+
+def seen(tight=False, hidden=None, depth=1.5):
+    """The pieces of the wire and of `hidden` edges: edge and state. tight: the wire runs on the square's surface."""
+    edges, offsets, incident = _kernel.edge_table(TRIANGLES, len(POINTS))
+    mesh = _kernel.Mesh(
+        POINTS,
+        TRIANGLES,
+        np.concatenate([edges, np.array([[4, 5]], np.int32)]),
+        np.append(offsets, offsets[-1]).astype(np.int32),
+        incident,
+    )
+    groups = _kernel.Groups(
+        np.zeros(2, np.int32),
+        np.array([0] * WIRE + [1], np.int32),
+        cull=np.zeros(2, bool),
+        sound=np.ones(2, bool),
+        delta=np.full(2, depth),
+        cap=np.full(2, 100.0),
+        tight=np.array([False, tight]),
+    )
+    role = np.array([0] * WIRE + [1], np.uint8)
+    return _kernel.visibility(mesh, POINTS, groups, role, None, hidden)
+
+
+def test_states_are_numbered_as_the_kernel_has_them():
+    assert (VISIBLE, HIDDEN, WITHIN, DIVING) == (0, 1, 2, 3)
+    assert seen().state.tolist() == [WITHIN, VISIBLE] and seen(depth=0.5).state.tolist() == [HIDDEN, VISIBLE]
+
+
+def test_a_line_on_a_surface_is_never_nearly_hidden():
+    assert seen().counters["contacts"] == seen(tight=True).counters["contacts"] == 1
+    assert seen(tight=True).state.tolist() == [VISIBLE, VISIBLE]
+    assert seen(tight=True, depth=0.5).state.tolist() == [HIDDEN, VISIBLE]
+
+
+def test_hidden_outlines_come_where_their_edges_are():
+    found = seen(hidden=np.array([False, True, False, False, True, False]))
+    assert found.edge.tolist() == [1, 4, WIRE, WIRE] and found.state.tolist() == [HIDDEN, HIDDEN, WITHIN, VISIBLE]
+    assert found.t0.tolist()[:3] == [0.0, 0.0, 0.0] and found.t1.tolist()[:2] == [1.0, 1.0]
     assert (found.edge.dtype, found.state.dtype) == (np.int32, np.uint8)
-    # Pieces of one edge stay in their order, however many there are.
-    for hidden in ([True] * 4, [True, False, False, True]):
-        found = solve(hidden=hidden)
-        for edge in (0, 1, 3):
-            mine = found.edge == edge
-            kernel = np.array(EDGES) == edge
-            assert found.state[mine].tolist() == np.array(STATES)[kernel].tolist() + [HIDDEN] * hidden[edge]
+    none = seen(hidden=np.zeros(6, bool))
+    assert none.edge.tolist() == seen().edge.tolist() == [WIRE, WIRE]
+    with pytest.raises(ValueError, match="hidden"):
+        seen(hidden=np.zeros(5, bool))
 
 
-def test_no_hidden_silhouettes_change_nothing(solve):
-    for hidden in (None, [False] * 4):
-        assert solve(hidden=hidden).edge.tolist() == EDGES
+def test_pieces_that_do_not_fit_are_refused():
+    edge, ends, state, facing = np.array([0, 1], np.int32), np.ones(2), np.ones(2, np.uint8), np.zeros(2, np.int8)
+    assert _kernel.Visibility(edge, 0 * ends, ends, state, facing).state.tolist() == [HIDDEN, HIDDEN]
+    with pytest.raises(ValueError, match="t1"):
+        _kernel.Visibility(edge, ends, ends[:1], state, facing)
+    with pytest.raises(ValueError, match="edge"):
+        _kernel.Visibility(edge[::-1].copy(), ends, ends, state, facing)

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use super::arrays::{expect_below, expect_len, expect_slice_below, flat, rows};
 use super::guard::caught;
 use super::mesh_input::{Groups, Mesh};
+use super::visibility::Visibility;
 use hlr_linework::lines::candidates::{About, Chains as Found, Surface, add_outlines};
 use hlr_linework::lines::chain::{Straight, chain as chain_edges};
 use hlr_linework::lines::drawing::Kind;
@@ -122,7 +123,7 @@ pub struct Chains(pub(super) Arc<Found>);
 
 #[pymethods]
 impl Chains {
-    /// Walks of the source whose class is drawn, then the contours among the edges `found`, which ascend.
+    /// Walks of the source whose class is drawn, then the contours among the edges that have pieces.
     #[new]
     #[allow(clippy::too_many_arguments)] // two objects, what is drawn, and columns of triangles and edges
     fn new(
@@ -134,9 +135,8 @@ impl Chains {
         triangle_part: PyReadonlyArray1<'_, i32>,
         triangle_face: PyReadonlyArray1<'_, i32>,
         has_faces: PyReadonlyArray1<'_, bool>,
-        facing: PyReadonlyArray1<'_, i8>,
         role: PyReadonlyArray1<'_, u8>,
-        found: PyReadonlyArray1<'_, i32>,
+        found: &Visibility,
     ) -> PyResult<Chains> {
         caught(py, || {
             let (reading, of) = (mesh.reading(py)?, groups.reading(py)?);
@@ -151,7 +151,7 @@ impl Chains {
                 triangle_part: flat(&triangle_part, "triangle_part")?,
                 triangle_face: flat(&triangle_face, "triangle_face")?,
                 has_faces: flat(&has_faces, "has_faces")?,
-                facing: flat(&facing, "facing")?,
+                facing: &found.facing,
                 role: flat(&role, "role")?,
                 groups: groups.groups.len(),
             };
@@ -161,12 +161,11 @@ impl Chains {
             expect_len("role", surface.role.len(), edges.len())?;
             expect_len("groups of edges", surface.edge_group.len(), edges.len())?;
             expect_slice_below("triangle_part", surface.triangle_part, surface.has_faces.len())?;
-            let found = flat(&found, "found")?;
-            expect_below("found", found.iter().copied(), edges.len())?;
+            expect_below("found", found.edge.iter().copied(), edges.len())?;
             expect_below("edges of walks", walks.edges.iter().copied(), edges.len())?;
             expect_below("classes of walks", walks.about.iter().map(|a| i32::from(a.kind.0)), drawn.len())?;
             let mut out = walks.chosen(&drawn);
-            add_outlines(&surface, found, &mut out);
+            add_outlines(&surface, &found.edge, &mut out);
             Ok(Chains(Arc::new(out)))
         })
     }

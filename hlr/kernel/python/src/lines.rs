@@ -14,14 +14,14 @@ use super::geometry::Curves as Records;
 use super::guard::caught;
 use super::mesh_input::Mesh;
 use super::threads::run;
+use super::visibility::Visibility;
 use hlr_linework::fit::routes::{Curves, Fit, Guide};
 use hlr_linework::lines::camera::Camera as PaperCamera;
-use hlr_linework::lines::candidates::Chains as Walks;
+use hlr_linework::lines::candidates::{About, Chains as Walks};
 use hlr_linework::lines::coincident::Widths;
 use hlr_linework::lines::cut::{Cut as Found, Tolerances, Trait, cut};
 use hlr_linework::lines::finish::{finish, guide};
-use hlr_linework::lines::runs::{Geometry, Piece};
-use hlr_visibility::scan::invisibility::State;
+use hlr_linework::lines::runs::Geometry;
 
 type Vec3 = [f64; 3];
 
@@ -49,10 +49,6 @@ impl Camera {
         table(py, run(py, points.len() / 8, |_| self.0.reach(points))?.to_vec())
     }
 }
-
-/// Edge, start, end and state of each piece.
-type Pieces<'py> =
-    (PyReadonlyArray1<'py, i32>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, u8>);
 
 /// How far lines may be off, and which lines are too short to be drawn.
 #[pyclass(frozen)]
@@ -104,15 +100,15 @@ pub struct Cut {
 #[pymethods]
 impl Cut {
     #[new]
-    #[pyo3(signature = (camera, mesh, pieces, chains, rank, without_brep, tolerances, hidden, true_points = None))]
-    #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
+    #[pyo3(signature = (camera, mesh, found, chains, ranks, without_brep, tolerances, hidden, true_points = None))]
+    #[allow(clippy::too_many_arguments)] // four objects, two tables and what is asked for
     fn new(
         py: Python<'_>,
         camera: &Camera,
         mesh: &Mesh,
-        pieces: Pieces<'_>,
+        found: &Visibility,
         chains: &Chains,
-        rank: PyReadonlyArray1<'_, u8>,
+        ranks: PyReadonlyArray1<'_, u8>,
         without_brep: PyReadonlyArray1<'_, bool>,
         tolerances: &LineTolerances,
         hidden: bool,
@@ -125,17 +121,26 @@ impl Cut {
             let (meshed, edges) = (all.points, all.edges);
             let space = true_points.as_ref().map(|p| rows(p, "true_points")).transpose()?.unwrap_or(meshed);
             expect_len("true_points", space.len(), meshed.len())?;
-            let (rank, without_brep) = (flat(&rank, "rank")?, flat(&without_brep, "without_brep")?);
+            let (ranks, without_brep) = (flat(&ranks, "ranks")?, flat(&without_brep, "without_brep")?);
             let (cutting, fit) = (tolerances.cut, tolerances.fit);
             expect_below("chains", chains.edges.iter().copied(), edges.len())?;
-            expect_len("rank", rank.len(), chains.about.len())?;
-            expect_len("without_brep", without_brep.len(), chains.about.len())?;
-            let (pieces, piece_edge) = pieces_of(&pieces, edges.len())?;
-            let traits: Vec<Trait> = (0..rank.len())
-                .map(|c| Trait { rank: rank[c], without_brep: without_brep[c], noisy: chains.about[c].noisy })
-                .collect();
+            expect_below("found", found.edge.iter().copied(), edges.len())?;
+            expect_below("classes of chains", chains.about.iter().map(|a| i32::from(a.kind.0)), ranks.len())?;
+            expect_below("parts of chains", chains.about.iter().map(|a| a.part), without_brep.len())?;
+            if !found.hidden.is_empty() {
+                expect_len("edges of found", found.hidden.len(), edges.len())?;
+            }
+            // Where a shaft's outline lies on that of its bore, the shaft's is drawn.
+            let behind = |c: usize| found.hidden.get(chains.edges[chains.offsets[c] as usize] as usize) == Some(&true);
+            let trait_of = |(c, about): (usize, &About)| Trait {
+                rank: ranks[about.kind.0 as usize] + u8::from(behind(c)),
+                without_brep: without_brep[about.part as usize],
+                noisy: about.noisy,
+            };
+            let traits: Vec<Trait> = chains.about.iter().enumerate().map(trait_of).collect();
             let found = run(py, chains.edges.len(), |stopped| {
-                let geometry = Geometry { camera: &camera, space, meshed, edges, pieces: &pieces, piece_edge };
+                let (pieces, piece_edge) = (&found.pieces[..], &found.edge[..]);
+                let geometry = Geometry { camera: &camera, space, meshed, edges, pieces, piece_edge };
                 let mut found = cut(&geometry, chains, &traits, &cutting, stopped)?;
                 if !hidden {
                     found.keep_sighted(traits.len());
@@ -210,24 +215,4 @@ fn matrices<'a>(places: &'a PyReadonlyArray3<'_, f64>) -> PyResult<&'a [[[f64; 4
         return Err(wrong());
     }
     Ok(places.as_slice().map_err(|_| wrong())?.as_chunks::<4>().0.as_chunks::<3>().0)
-}
-
-/// The pieces, and the edge of each.
-fn pieces_of<'a>(pieces: &'a Pieces, edges: usize) -> PyResult<(Vec<Piece>, &'a [i32])> {
-    let (edge, start, end, state) =
-        (flat(&pieces.0, "edge")?, flat(&pieces.1, "t0")?, flat(&pieces.2, "t1")?, flat(&pieces.3, "state")?);
-    for (name, found) in [("t0", start.len()), ("t1", end.len()), ("state", state.len())] {
-        expect_len(name, found, edge.len())?;
-    }
-    expect_below("edge", edge.iter().copied(), edges)?;
-    if edge.windows(2).any(|w| w[0] > w[1]) {
-        return Err(PyValueError::new_err("the edges of pieces must ascend"));
-    }
-    let state = |i: usize| match state[i] {
-        0 => State::Visible,
-        1 => State::Hidden,
-        2 => State::Within,
-        _ => State::Diving,
-    };
-    Ok(((0..edge.len()).map(|i| Piece { start: start[i], end: end[i], state: state(i) }).collect(), edge))
 }

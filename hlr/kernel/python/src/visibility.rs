@@ -11,6 +11,9 @@ use super::guard::caught;
 use super::mesh_input::{Groups, Mesh};
 use super::threads::run;
 use super::view::{Flat, arrays, flat};
+use hlr_linework::lines::runs::Piece;
+use hlr_visibility::scan::drawn::as_drawn;
+use hlr_visibility::scan::invisibility::State;
 use hlr_visibility::scan::own_faces::{OwnFaces as Own, Owned};
 use hlr_visibility::scan::scene::{Numbers, Refusal, Scene, solve};
 use hlr_visibility::scan::sweep::{Counters, Seconds, Steps};
@@ -70,29 +73,70 @@ impl OwnFaces {
     }
 }
 
-/// Visible and hidden pieces of the edges.
+/// Visible and hidden pieces of the edges, as they are drawn.
 #[pyclass(frozen)]
 pub struct Visibility {
-    edge: Vec<i32>,
-    t0: Vec<f64>,
-    t1: Vec<f64>,
-    state: Vec<u8>,
-    facing: Vec<i8>,
+    /// The edge of each piece; they ascend.
+    pub edge: Vec<i32>,
+    pub pieces: Vec<Piece>,
+    /// Of each triangle.
+    pub facing: Vec<i8>,
+    /// Of each edge, whether its own body hides it; empty: of none.
+    pub hidden: Vec<bool>,
+    contacts: u64,
     counters: Counters,
     seconds: Seconds,
 }
 
 arrays! { Visibility {
     edge: flat Flat<'py, i32> = |v| &v.edge;
-    t0: flat Flat<'py, f64> = |v| &v.t0;
-    t1: flat Flat<'py, f64> = |v| &v.t1;
-    state: flat Flat<'py, u8> = |v| &v.state;
     facing: flat Flat<'py, i8> = |v| &v.facing;
 }
 
+    /// Pieces that are known already.
+    #[new]
+    fn new(
+        py: Python<'_>,
+        edge: PyReadonlyArray1<'_, i32>,
+        t0: PyReadonlyArray1<'_, f64>,
+        t1: PyReadonlyArray1<'_, f64>,
+        state: PyReadonlyArray1<'_, u8>,
+        facing: PyReadonlyArray1<'_, i8>,
+    ) -> PyResult<Visibility> {
+        caught(py, || {
+            let (edge, facing) = (slice(&edge, "edge")?.to_vec(), slice(&facing, "facing")?.to_vec());
+            let (start, end, states) = (slice(&t0, "t0")?, slice(&t1, "t1")?, slice(&state, "state")?);
+            for (name, found) in [("t0", start.len()), ("t1", end.len()), ("state", states.len())] {
+                expect_len(name, found, edge.len())?;
+            }
+            expect_ascending("edge", &edge)?;
+            let piece = |i: usize| Piece { start: start[i], end: end[i], state: state_of(states[i]) };
+            let pieces = (0..edge.len()).map(piece).collect();
+            let (counters, seconds) = (Counters::default(), Seconds::default());
+            Ok(Visibility { edge, pieces, facing, hidden: Vec::new(), contacts: 0, counters, seconds })
+        })
+    }
+
+    #[getter]
+    fn t0<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |piece| piece.start)
+    }
+
+    #[getter]
+    fn t1<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |piece| piece.end)
+    }
+
+    #[getter]
+    fn state<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
+        self.column(py, |piece| piece.state as u8)
+    }
+
     #[getter]
     fn counters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        counters(py, &self.counters)
+        let out = counters(py, &self.counters)?;
+        out.set_item("contacts", self.contacts)?;
+        Ok(out)
     }
 
     #[getter]
@@ -101,10 +145,25 @@ arrays! { Visibility {
     }
 }
 
-/// Visible and hidden pieces of the edges that have a role.
+impl Visibility {
+    fn column<'py, T: numpy::Element>(&self, py: Python<'py>, of: impl Fn(&Piece) -> T) -> Bound<'py, PyArray1<T>> {
+        self.pieces.iter().map(of).collect::<Vec<T>>().into_pyarray(py)
+    }
+}
+
+fn state_of(number: u8) -> State {
+    match number {
+        0 => State::Visible,
+        1 => State::Hidden,
+        2 => State::Within,
+        _ => State::Diving,
+    }
+}
+
+/// Visible and hidden pieces of the edges that have a role, and of those that are `hidden`.
 #[pyfunction]
-#[pyo3(signature = (mesh, projected, groups, role, own = None, *, crossings = true, piercings = true, pyramid = false,
-    arithmetic = "exact"))]
+#[pyo3(signature = (mesh, projected, groups, role, own = None, hidden = None, *, crossings = true, piercings = true,
+    pyramid = false, arithmetic = "exact"))]
 #[allow(clippy::too_many_arguments)] // half of them are options
 pub fn visibility<'py>(
     py: Python<'py>,
@@ -113,6 +172,7 @@ pub fn visibility<'py>(
     groups: &Groups,
     role: PyReadonlyArray1<'py, u8>,
     own: Option<&OwnFaces>,
+    hidden: Option<PyReadonlyArray1<'py, bool>>,
     crossings: bool,
     piercings: bool,
     pyramid: bool,
@@ -146,6 +206,10 @@ pub fn visibility<'py>(
         expect_len("triangle_face", own.triangle_face.len(), all.triangles.len())?;
         expect_below("own edge", own.edge.iter().chain(&own.line).chain(&own.off).copied(), all.edges.len())?;
     }
+    let hidden = hidden.as_ref().map_or(Ok(&[][..]), |hidden| slice(hidden, "hidden"))?;
+    if !hidden.is_empty() {
+        expect_len("hidden", hidden.len(), all.edges.len())?;
+    }
     let own = own.map_or(Own::NONE, |own| own.0.borrowed());
     let steps = Steps { crossings, piercings, pyramid };
     let outcome = run(py, scene.triangles.len(), |stopped| solve(&scene, own, steps, numbers, stopped))?.map_err(
@@ -154,13 +218,19 @@ pub fn visibility<'py>(
             Refusal::Stopped => PyKeyboardInterrupt::new_err("stopped"),
         },
     )?;
-    let pieces = &outcome.pieces;
+    let on_surface = |edge: u32| groups.groups[scene.edge_group[edge as usize] as usize].tight;
+    let (drawn, contacts) = as_drawn(&outcome.pieces, on_surface, hidden);
+    let piece = |p: &hlr_visibility::scan::invisibility::Piece| Piece {
+        start: p.segment.start,
+        end: p.segment.end,
+        state: p.segment.state,
+    };
     Ok(Visibility {
-        edge: pieces.iter().map(|p| p.edge as i32).collect(),
-        t0: pieces.iter().map(|p| p.segment.start).collect(),
-        t1: pieces.iter().map(|p| p.segment.end).collect(),
-        state: pieces.iter().map(|p| p.segment.state as u8).collect(),
+        edge: drawn.iter().map(|p| p.edge as i32).collect(),
+        pieces: drawn.iter().map(piece).collect(),
         facing: outcome.facing,
+        hidden: hidden.to_vec(),
+        contacts,
         counters: outcome.counters,
         seconds: outcome.seconds,
     })

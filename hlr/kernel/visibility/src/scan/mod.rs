@@ -13,6 +13,7 @@
 //! 8. `exact_query`    the slow way, polygon by polygon, for a drawn edge whose check failed
 //! 9. `own_faces`      the slow way for edges whose own faces are seen nearly edge-on: hidden only if these turn over
 //!    (`sheets`: the triangles of faces that go on smoothly; `touching`: outlines at which another body touches)
+//! 10. `drawn`         the pieces that lines are made of
 //!
 //! Two shortcuts, taken where the scene calls for them, with the same result: `single_layer` (a convex body: culling
 //! alone decides) before 4, and `depth_pyramid` (deep scenes: what surely lies behind something needs no search).
@@ -26,6 +27,7 @@ pub mod active_spans;
 pub mod bands;
 pub mod box_tree;
 pub mod depth_pyramid;
+pub mod drawn;
 pub mod edge_table;
 pub mod exact_query;
 pub mod invisibility;
