@@ -32,14 +32,17 @@ pub struct Pieces {
 /// Steps of a search for a root.
 const STEPS: usize = 200;
 
-/// Parameters at which an edge lies farthest along the normal: its polyline gets corners there.
-pub fn extremes(edge: &Edge, normal: &Vector) -> Vec<f64> {
-    let Some(Curve::Ellipse { a, b, .. }) = &edge.curve else { return Vec::new() };
+/// Parameters at which an edge lies farthest along the plane's normal, no farther than `reach` from the plane: its
+/// polyline gets corners there, for no chord must pass by a plane that its arc reaches. Elsewhere corners would only make
+/// borders of faces cross, where edges lie off their faces.
+pub fn extremes(edge: &Edge, plane: &Plane, reach: f64) -> Vec<f64> {
+    let Some(curve @ Curve::Ellipse { a, b, .. }) = &edge.curve else { return Vec::new() };
     let half = std::f64::consts::PI;
     let [first, last] = edge.range;
-    let start = atan2(dot(b, normal), dot(a, normal));
+    let start = atan2(dot(b, &plane.normal), dot(a, &plane.normal));
     let before = ((first - start) / half).floor();
-    (0..4).map(|k| start + (before + f64::from(k)) * half).filter(|t| *t > first && *t < last).collect()
+    let near = |t: &f64| *t > first && *t < last && plane.height(&curve.point(*t)).abs() <= reach;
+    (0..4).map(|k| start + (before + f64::from(k)) * half).filter(near).collect()
 }
 
 /// Divides an edge. `ends`: its vertices; `points`: of all vertices, to which new ones are added.
@@ -139,4 +142,30 @@ pub fn bracketed(height: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
         }
     }
     0.5 * (low.0 + high.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{PI, TAU};
+
+    /// Three quarters of a circle of radius 2 about (1, 0, 0), which begins at (3, 0, 0) and runs toward y.
+    fn arc() -> Edge {
+        let circle = Curve::Ellipse { p: [1.0, 0.0, 0.0], a: [2.0, 0.0, 0.0], b: [0.0, 2.0, 0.0] };
+        Edge::on_curve(circle, [0.0, 0.75 * TAU], [(0, 0), (1, 0)], 0.0)
+    }
+
+    fn corners(normal: Vector, level: f64) -> Vec<f64> {
+        extremes(&arc(), &Plane { normal, level, near: 1e-9 }, 0.125)
+    }
+
+    #[test]
+    fn an_arc_has_corners_where_it_lies_farthest_and_near_the_plane() {
+        // At x = -1 it lies farthest; its first point, farthest the other way, is its end.
+        for (level, found) in [(-1.0, 1), (-1.1, 1), (-0.9, 1), (-1.2, 0), (-0.8, 0), (1.0, 0), (3.0, 0)] {
+            let at = corners([1.0, 0.0, 0.0], level);
+            assert_eq!(at.len(), found, "{level}");
+            assert!(at.iter().all(|t| (t - PI).abs() < 1e-12));
+        }
+    }
 }

@@ -84,7 +84,8 @@ fn try_cut(
     }
     let deflection = COARSE * body.size();
     let watch = Watch { stopped, done: &AtomicUsize::new(0) };
-    let coarse = match tessellate(&with_corners(&body, plane), deflection, COARSE_ANGLE, LIMITS, &watch) {
+    let cornered = with_corners(&body, plane, CUT_BULGE * deflection);
+    let coarse = match tessellate(&cornered, deflection, COARSE_ANGLE, LIMITS, &watch) {
         Ok(coarse) => coarse,
         Err(Ended::Stopped) => return Ok(Cut::Stopped),
         Err(Ended::TooFine) => return Err("its mesh is too fine"),
@@ -104,11 +105,11 @@ fn try_cut(
     checked.map(|()| Cut::Pieces(pieces))
 }
 
-/// A body as a model, with corners where its edges lie farthest along the normal of the plane.
-fn with_corners(body: &Body, plane: &Plane) -> Model {
+/// A body as a model, with corners where its edges lie farthest along the normal of the plane, within reach of it.
+fn with_corners(body: &Body, plane: &Plane, reach: f64) -> Model {
     let mut body = body.clone();
     for edge in &mut body.edges {
-        edge.joints = extremes(edge, &plane.normal);
+        edge.joints = extremes(edge, plane, reach);
     }
     model_of(vec![body], false)
 }
