@@ -8,7 +8,7 @@ import click
 
 from hlr.tables.projection_methods import PROJECTION_METHODS
 
-from .document_pages import without_template
+from .document_pages import left_out_of
 from .drawn_files import targets_of, write
 from .guard import start
 from .meter import meter
@@ -77,7 +77,7 @@ def draw_arranged_page(
             import hlr
 
             drawing = hlr.draw_arranged(source, method, list(views) or None, request, progress, **printed)
-        tell_notes([*without_template([drawing], targets), *drawing.notes], request.strict, told["quiet"])
+        tell_notes([*left_out_of([drawing], targets), *drawing.notes], request.strict, told["quiet"])
         (drawing,) = write([drawing], targets, out.put)
         if told["as_json"]:
             out.put(summary([drawing], targets))

@@ -57,7 +57,7 @@ def draw_document_pages(
             if page is None:
                 targets = targets_of(outputs, source, _distinct(page_names(source)), format, told["as_json"])
             drawings = hlr.draw_pages(source, None if page is None else [page], request, progress)
-        notes = [*without_template(drawings, targets), *(note for drawing in drawings for note in drawing.notes)]
+        notes = [*left_out_of(drawings, targets), *(note for drawing in drawings for note in drawing.notes)]
         tell_notes(notes, request.strict, told["quiet"])
         drawings = write(drawings, targets, out.put)
         if told["as_json"]:
@@ -66,18 +66,15 @@ def draw_document_pages(
         tell_written(written(drawing, row), told["quiet"])
 
 
-def without_template(drawings: Sequence[Drawing], targets: Targets) -> list[Note]:
-    """Notes on files that have the lines of a page without its template."""
-    from hlr.drawing.notes import Note
+def left_out_of(drawings: Sequence[Drawing], targets: Targets) -> list[Note]:
+    """Notes on what is on the pages, but not in some of their files."""
+    from hlr.writers.left_out import left_out
 
     return [
-        Note(
-            "page-items-left-out",
-            f'Page "{drawing.view.name}": the template not drawn in {target}, which has the lines alone.',
-        )
+        note
         for drawing, row in zip(drawings, targets, strict=True)
         for target in row
-        if drawing.sheet is not None and drawing.sheet.template and target.format == "dxf"
+        for note in left_out(drawing, target.format, str(target))
     ]
 
 

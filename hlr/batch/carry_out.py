@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import sysconfig
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
@@ -20,6 +20,7 @@ from hlr.errors import HlrError, StrictError
 if TYPE_CHECKING:
     from hlr.common.types import Progress
     from hlr.drawing.drawing import Drawing
+    from hlr.drawing.notes import Note
     from hlr.public.arranged import Method
     from hlr.request.options import View
 
@@ -63,6 +64,8 @@ def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
 
 def _drawn(job: Job, progress: Progress | None) -> Outcome:
     from hlr.drawing.saving import render
+    from hlr.pipeline.session import refuse_warnings
+    from hlr.writers.left_out import left_out
 
     source, views = str(Path(job.root, job.source)), cast("list[View]", list(job.views))
     options = options_of(job.options, job.root)
@@ -77,14 +80,18 @@ def _drawn(job: Job, progress: Progress | None) -> Outcome:
         from hlr.public.draw import draw_views
 
         drawings = draw_views(source, views, options, progress)
+    more = [[note for format in job.formats for note in left_out(each, format, format.upper())] for each in drawings]
+    if options.strict:
+        refuse_warnings([note for notes in more for note in notes])
     started = perf_counter()
     contents = tuple(tuple(render(drawing, format) for format in job.formats) for drawing in drawings)
     writing = (perf_counter() - started) / len(drawings)
-    return Outcome(None, tuple(_facts(drawing, writing) for drawing in drawings), contents)
+    facts = (_facts(drawing, notes, writing) for drawing, notes in zip(drawings, more, strict=True))
+    return Outcome(None, tuple(facts), contents)
 
 
-def _facts(drawing: Drawing, writing: float) -> dict[str, Any]:
-    """What the report says of a drawing. writing: seconds."""
+def _facts(drawing: Drawing, more: Sequence[Note], writing: float) -> dict[str, Any]:
+    """What the report says of a drawing. more: notes on its files; writing: seconds."""
     import json
 
     from hlr.writers.json_records import accuracies
@@ -98,7 +105,7 @@ def _facts(drawing: Drawing, writing: float) -> dict[str, Any]:
         "lines": {"visible": visible, "hidden": len(drawing.lines) - visible},
         "parts": _most_parts(drawing),
         "accuracy": accuracies(drawing),
-        "notes": [note.as_dict() | {"warning": note.is_warning} for note in drawing.notes],
+        "notes": [note.as_dict() | {"warning": note.is_warning} for note in (*more, *drawing.notes)],
         "seconds": {stage: round(s, 4) for stage, s in ({**drawing.timings} | {"write": writing}).items()},
     }
     # Numbers may be NumPy's.

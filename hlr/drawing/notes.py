@@ -49,7 +49,7 @@ CODES: dict[NoteCode, str] = {
     "free-edges-left-out": "a part of a file has edges without faces beside it: construction lines, axes, sketches",
     "annotation-left-out": "faces that a STEP file hides, or calls supplemental geometry, were left out as annotation",
     "hidden-objects-left-out": "objects that a FreeCAD document hides were left out",
-    "page-items-left-out": "something on a page of a FreeCAD document is not drawn",
+    "page-items-left-out": "something on a page of a FreeCAD document, or of a template, is not drawn",
     "not-meshed": "faces or a whole part could not be triangulated, or not all of a face",
     "faces-mended": "outlines of faces are broken in the model: OpenCASCADE meshed them, if need be mended",
     "loops-crossed": "outlines or holes of faces cross or touch in the model; what they run around is drawn",

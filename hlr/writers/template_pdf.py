@@ -19,6 +19,9 @@ _STOP_COLOR = re.compile(r"(?:^|;)\s*stop-color\s*:\s*([^;]+)")
 FONT = "T"
 """The name of the font among the resources of the page."""
 
+ENCODING = "cp1252"
+"""The letters that the font has here, as Python calls them: WinAnsiEncoding. Others become question marks."""
+
 FONT_RESOURCE = "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>"
 
 CAPS = {"butt": 0, "round": 1, "square": 2}
@@ -126,7 +129,7 @@ def _text(text: Any) -> Iterator[str]:
     m = text.transform
     x, y = float(text.x or 0.0) - back, float(text.y or 0.0)
     placed = (m.a, m.b, -m.c, -m.d, m.a * x + m.c * y + m.e, m.b * x + m.d * y + m.f)
-    data = words.encode("cp1252", "replace").hex()
+    data = words.encode(ENCODING, "replace").hex()
     yield f"BT {fill} rg /{FONT} {number(size)} Tf {' '.join(number(v, 6) for v in placed)} Tm <{data}> Tj ET"
 
 

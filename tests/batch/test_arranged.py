@@ -127,6 +127,23 @@ def test_a_template_with_the_name_of_each_source_in_its_title(tmp_path):
     assert key_of(job, Digests()) != before
 
 
+def test_what_files_leave_out_of_a_page_stands_in_the_report(tmp_path):
+    (tmp_path / "sheet.svg").write_text(TEMPLATE)
+    keys = {"arrange": "third-angle", "template": "sheet.svg", "texts": {"TITLE": "≥ 5"}, "hidden": False}
+    _, (job,) = jobs(tmp_path, formats=["svg", "pdf", "dxf", "json"], **keys)
+    outcome = carry_out(job)
+    assert outcome.warned
+    assert [note["text"] for note in outcome.drawings[0]["notes"]][:2] == [
+        'Page "third-angle": "≥" not drawn in PDF, but ? instead: SVG has all letters.',
+        'Page "third-angle": the template not drawn in DXF, which has the lines alone.',
+    ]
+    assert b"not drawn" not in outcome.contents[0][3]  # the same bytes as those of `hlr draw`
+    _, (job,) = jobs(tmp_path, formats=["pdf"], strict=True, **keys)
+    assert carry_out(job).failure.kind == "StrictError"
+    _, (job,) = jobs(tmp_path, formats=["svg"], strict=True, **keys)
+    assert carry_out(job).failure is None
+
+
 @pytest.mark.parametrize(
     ("keys", "words"),
     [

@@ -13,6 +13,7 @@ from PIL import Image
 from hlr.drawing.page import Page
 from hlr.drawing.sheet import Sheet
 from hlr.errors import WriteError
+from hlr.writers.left_out import left_out
 from support.drawings import drawing, line
 
 TEMPLATE = """<svg width="100" height="80" viewBox="0 0 200 160">
@@ -105,3 +106,23 @@ def test_gradients_have_the_mean_of_their_colours():
 def test_gradients_without_colours_paint_nothing(own):
     at = pixels(sheet(of_gradients(own)))
     assert at(20, 20) == at(60, 20) == WHITE
+
+
+def test_letters_that_pdf_has_not_are_named():
+    page = sheet(TEMPLATE.replace("Ünal", "größer ≥ 5 Ω, Привет – ≥"))
+    for format in ("pdf", "png"):
+        (note,) = left_out(page, format, f"a.{format}")
+        assert (note.code, note.is_warning) == ("page-items-left-out", True)
+        assert note.text == (
+            f'Page "{page.view.name}": "≥", "Ω", "П", "р", "и" and 3 more not drawn in a.{format}, but ? instead: '
+            "SVG has all letters."
+        )
+    assert left_out(page, "svg", "a.svg") == []
+    assert "template not drawn in a.dxf" in left_out(page, "dxf", "a.dxf")[0].text
+
+
+def test_letters_that_nobody_sees_are_not_named():
+    assert left_out(sheet(), "pdf", "a.pdf") == []
+    hidden = '<title>Ω</title><g display="none"><text>Ω</text></g><text>a<tspan visibility="hidden">Ω</tspan> €</text>'
+    assert left_out(sheet(hidden), "pdf", "a.pdf") == []
+    assert left_out(drawing([line([(10, 10), (20, 10)])]), "pdf", "a.pdf") == []
