@@ -97,7 +97,7 @@ class Style:
     background   a CSS name or #rrggbb; None: no background, so that what lies below shows
     layers       of SVG, PDF and DXF: one for each line class and visibility, or first one for each part
     part_colors  lines: each part's lines have its colour, darker or lighter where that is too close to the background;
-                 fills: the visible faces are painted in it, without shading; None: neither
+                 fills: the visible faces are painted in it, opaque and without shading; None: neither
     size         of PNG, (width, height) in pixels: the page as large as fits into it. None: by dpi
     dpi          of PNG, pixels per inch of paper. None: 200
     dxf          the version of DXF files

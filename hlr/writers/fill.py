@@ -31,12 +31,15 @@ Loops = list[list[tuple[str, str]]]
 
 
 def painted(drawing: Drawing, fill: Fill) -> Fill:
-    """The fill in the colours that the drawing's style asks for: shaded, or each part flat in its own."""
+    """The fill in the colours that the drawing's style asks for: shaded, or each part flat in its own.
+
+    Flat colours are opaque. Of a transparent part, the shaded ones hold what is behind it, and are opaque where that is.
+    """
     if drawing.style.part_colors != "fills":
         return fill
     own = [part_color(part) or DEFAULT for part in drawing.parts]
     flat = np.array([rgb_of(color) for color in own], np.uint8).reshape(-1, 3)[fill.part]
-    colors = np.concatenate([flat, fill.colors[:, 3:]], axis=1)
+    colors = np.concatenate([flat, np.full((len(flat), 1), 255, np.uint8)], axis=1)
     return replace(fill, colors=colors, gradient=np.full_like(fill.gradient, -1), gradients=())
 
 

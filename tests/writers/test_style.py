@@ -15,6 +15,7 @@ from hlr.drawing.fill import Fill
 from hlr.request.check import checked
 from hlr.request.styles import STYLES
 from hlr.writers.drawing_png import drawing_png
+from hlr.writers.fill import painted
 from hlr.writers.pdf import pdf
 from hlr.writers.svg import svg
 from support.drawings import drawing, line, part, sample
@@ -96,6 +97,19 @@ def test_parts_are_painted_flat_in_their_own_colours():
     assert b'fill="#ff0000" stroke="#ff0000"' in svg(flat)
     assert "1 0 0 rg 1 0 0 RG" in content_of(pdf(flat))
     assert pixels(flat)[83, 200].tolist() == [255, 0, 0, 255]
+
+
+def test_a_transparent_part_is_painted_alike_before_paper_and_before_another_part():
+    """Where something is behind it, its shaded colour holds that and is opaque; elsewhere it is not."""
+    corners = np.array([[x, y] for x in (0.0, 20.0) for x, y in ((x, 0.0), (x + 20.0, 0.0), (x + 20.0, 20.0))])
+    shaded = np.array([[90, 40, 60, 255], [255, 0, 0, 102]], np.uint8)
+    starts, own = np.array([0, 1, 2], np.int32), np.array([1, 1], np.int32)
+    fill = Fill(corners, 3 * starts, starts, shaded, np.array([-1, -1], np.int32), (), own, 0.1)
+    flat = replace(cross(), fill=fill).with_style({"part-colors": "fills"})
+    assert painted(flat, fill).colors.tolist() == [[255, 0, 0, 255]] * 2
+    assert b"fill-opacity" not in svg(flat)
+    assert " gs" not in content_of(pdf(flat))
+    assert "ExtGState" not in pdf(flat).decode("latin-1")
 
 
 def test_a_style_that_wants_the_colours_of_parts_has_faces_painted():
