@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hlr.errors import OptionError
+from hlr.errors import OptionError, WriteError
 from hlr.tables.projection_methods import PROJECTION_METHODS
 from hlr.tables.writers import WRITERS
 
@@ -114,8 +114,8 @@ def batch(
       hlr batch "parts/**/*.step" -o drawings --format svg --format pdf
 
     Exit codes: 0 all is drawn, 1 some sources failed, or the time was up, and the rest is there, 2 the batch
-    itself was wrong, or --on found no workers that it could use to the end, 3 drawings differ from the baseline
-    (--fail-on-change).
+    itself was wrong, the report could not be written, or --on found no workers that it could use to the end, 3
+    drawings differ from the baseline (--fail-on-change).
     """
     if init:
         return _init(sources)
@@ -152,13 +152,15 @@ def batch(
 def _tell(plan: Plan, asked: _Asked) -> None:
     """Say what is not drawn, or has no effect, though one might expect it."""
     from hlr.batch.manifest import find
-    from hlr.batch.plan import shows_nothing
+    from hlr.batch.plan import lies_inside, shows_nothing
     from hlr.batch.without_effect import without_effect
 
     if plan.manifest.file is None and asked.names_sources and (unused := find(Path())) is not None:
         remark(f"{unused} is not used, for sources are named: name it, or the folder, to draw what it says")
     if plan.silent:
         remark(shows_nothing(plan.silent))
+    if plan.inside:
+        remark(lies_inside(plan))
     for sentence in without_effect(plan):
         remark(sentence)
 
@@ -287,7 +289,11 @@ def _round(
     done = run(plan, kept, pool, display)
     tidy(plan.output)
     changed = earlier.changes(done)
-    report = write(done, digests, os.environ, changed)
+    try:
+        report = write(done, digests, os.environ, changed)
+    except WriteError as error:
+        why = str(error).rstrip(".")
+        raise WriteError(f"{why}; what is drawn stays, but there is no new report ({_counts(done)})") from None
     for line in github(report, plan.manifest.root, os.environ):
         show(line)
     _add_to_summary(plan.output / "summary.md")
@@ -304,10 +310,14 @@ def _round(
 
 def _said(done: Done, seconds: float) -> str:
     """One line about a batch."""
+    return f"{done.plan.output}: {_counts(done)}, {seconds:.1f} s"
+
+
+def _counts(done: Done) -> str:
     failed = sum(outcome.failure is not None for outcome in done.outcomes)
     drawn = sum(done.outcomes[number].failure is None for number in done.drawn)
     unchanged = len(done.outcomes) - len(done.drawn)
-    return f"{done.plan.output}: {drawn} drawn, {unchanged} unchanged, {failed} failed, {seconds:.1f} s"
+    return f"{drawn} drawn, {unchanged} unchanged, {failed} failed"
 
 
 def _watch(

@@ -24,7 +24,7 @@ MOST_VARIANTS = 10_000
 """Of one source."""
 
 MOST_NAMED = 5
-"""Scripts that one sentence names."""
+"""Sources that one sentence names."""
 
 REPORTS = ("manifest.json", "junit.xml", "summary.md", "code-quality.json")
 """Files of the report, in the folder of outputs."""
@@ -38,12 +38,14 @@ class Plan:
 
     output  the folder that is written to, absolute
     silent  scripts in folders of sources that import CadQuery or build123d and show nothing: they are not drawn
+    inside  models among the sources that lie in the folder of outputs: they are not drawn
     """
 
     manifest: Manifest
     output: Path
     jobs: tuple[Job, ...]
     silent: tuple[Path, ...] = ()
+    inside: tuple[Path, ...] = ()
 
 
 def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
@@ -54,8 +56,9 @@ def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
     """
     jobs: list[Job] = []
     silent: list[Path] = []
+    inside: list[Path] = []
     for rule in manifest.rules:
-        sources = _sources(manifest, rule, output, silent)
+        sources = _sources(manifest, rule, output, silent, inside)
         if "parameters" in rule.own and not any(map(takes_parameters, sources)):
             raise manifest.error((*rule.where, "parameters"), "only scripts have parameters, and this names none")
         printed = printed_of(manifest, rule)
@@ -69,7 +72,8 @@ def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
             jobs.extend(replace(job, depends=depends) for job in _jobs(manifest, rule, path, options, alone, printed))
     _check_names(manifest, jobs, output)
     drawn = {os.path.join(job.root, job.source) for job in jobs}
-    return Plan(manifest, output, tuple(jobs), tuple(path for path in dict.fromkeys(silent) if str(path) not in drawn))
+    unshown = tuple(path for path in dict.fromkeys(silent) if str(path) not in drawn)
+    return Plan(manifest, output, tuple(jobs), unshown, tuple(dict.fromkeys(inside)))
 
 
 def _stem(path: Path) -> str:
@@ -77,8 +81,11 @@ def _stem(path: Path) -> str:
     return str(path.with_suffix("")).casefold()
 
 
-def _sources(manifest: Manifest, rule: Rule, output: Path, silent: list[Path]) -> list[Path]:
-    """The sources of a rule. silent: gets the scripts that show nothing, as of `models_under`."""
+def _sources(manifest: Manifest, rule: Rule, output: Path, silent: list[Path], inside: list[Path]) -> list[Path]:
+    """The sources of a rule.
+
+    silent: gets the scripts that show nothing, as of `models_under`; inside: the models in the folder of outputs.
+    """
     root, patterns, exclude = manifest.root, as_list(rule.values["files"]), as_list(rule.values["exclude"])
     unshown: list[Path] = []
     found = [] if patterns else list(models_under(root, unshown))
@@ -88,6 +95,7 @@ def _sources(manifest: Manifest, rule: Rule, output: Path, silent: list[Path]) -
             raise manifest.error((*rule.where, "files"), f"{pattern} names no model under {root}")
         found += files
     outside = [path for path in dict.fromkeys(found) if not path.is_relative_to(output)]
+    inside += without([path for path in found if path.is_relative_to(output)], exclude, root)
     kept = without(outside, exclude, root)
     unshown = [path for path in without(unshown, exclude, root) if not path.is_relative_to(output)]
     silent += unshown
@@ -105,8 +113,16 @@ def _sources(manifest: Manifest, rule: Rule, output: Path, silent: list[Path]) -
 
 def shows_nothing(silent: Sequence[Path]) -> str:
     """What is said of scripts that are not drawn."""
-    names = ", ".join(path.name for path in silent[:MOST_NAMED]) + (", ..." if len(silent) > MOST_NAMED else "")
-    return f"scripts that show nothing are left out ({names}): name them to draw them"
+    return f"scripts that show nothing are left out ({_names(silent)}): name them to draw them"
+
+
+def lies_inside(plan: Plan) -> str:
+    """What is said of models in the folder of outputs."""
+    return f"models in the folder of outputs, {plan.output}, are left out ({_names(plan.inside)}): give another folder"
+
+
+def _names(paths: Sequence[Path]) -> str:
+    return ", ".join(path.name for path in paths[:MOST_NAMED]) + (", ..." if len(paths) > MOST_NAMED else "")
 
 
 def _depends(manifest: Manifest, rule: Rule) -> tuple[str, ...]:

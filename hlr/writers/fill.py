@@ -33,7 +33,7 @@ Loops = list[list[tuple[str, str]]]
 def painted(drawing: Drawing, fill: Fill) -> Fill:
     """The fill in the colours that the drawing's style asks for: shaded, or each part flat in its own.
 
-    Flat colours are opaque. Of a transparent part, the shaded ones hold what is behind it, and are opaque where that is.
+    Flat colours are opaque. The shaded ones of a transparent part hold what is behind it, and are opaque where that is.
     """
     if drawing.style.part_colors != "fills":
         return fill

@@ -163,6 +163,26 @@ def test_a_cache_that_cannot_be_written_is_told_once(hlr_batch, tmp_path):
 
 
 @pytest.mark.slow
+def test_a_report_that_cannot_be_written_says_what_is_drawn(hlr_batch):
+    tetrahedron(hlr_batch.folder / "a.off")
+    code = (
+        "import hlr.batch.report\n"
+        "from hlr.cli import main\n"
+        "from hlr.errors import WriteError\n"
+        "def full(*_):\n"
+        "    raise WriteError('cannot write junit.xml: no space left on device.')\n"
+        "hlr.batch.report.write = full\n"
+        "main()\n"
+    )
+    done = hlr_batch("--view", "iso", program=("-c", code))
+    assert done.returncode == 2
+    assert done.stderr.splitlines()[-1] == (
+        "hlr: cannot write junit.xml: no space left on device; what is drawn stays, but there is no new report "
+        "(1 drawn, 0 unchanged, 0 failed)."
+    )
+
+
+@pytest.mark.slow
 def test_ctrl_c_says_how_far_it_has_come(hlr_batch):
     tetrahedron(hlr_batch.folder / "a.off")
     (hlr_batch.folder / "endless.py").write_text("while True: pass\n")

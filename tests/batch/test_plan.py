@@ -9,7 +9,7 @@ from batch.models import tetrahedron
 
 from hlr.batch.manifest import manifest_of
 from hlr.batch.manifest import read as read_manifest
-from hlr.batch.plan import REPORTS, plan
+from hlr.batch.plan import REPORTS, lies_inside, plan
 from hlr.batch.report import _WRITERS
 from hlr.errors import OptionError
 
@@ -55,6 +55,19 @@ def test_scripts_of_a_folder_are_run_only_where_they_show_a_cad_model(tmp_path):
         (tmp_path / name).unlink()
     with pytest.raises(OptionError, match=r"there is no model under .*; scripts that show nothing .*\(helper.py\)"):
         planned(tmp_path)
+
+
+def test_models_in_the_folder_of_outputs_are_left_out_and_named(tmp_path):
+    for name in ("a.off", "out/b.off", "out/c.off", "out/old.off"):
+        tetrahedron(tmp_path / name)
+    found = plan(
+        manifest_of({"files": ["*.off", "out/b.off", "out"], "exclude": "out/old.off"}, tmp_path), tmp_path / "out"
+    )
+    assert [job.source for job in found.jobs] == ["a.off"]
+    assert found.inside == (tmp_path / "out/b.off", tmp_path / "out/c.off")
+    assert lies_inside(found) == (
+        f"models in the folder of outputs, {tmp_path}/out, are left out (b.off, c.off): give another folder"
+    )
 
 
 def test_patterns_leave_out_what_is_no_model_and_names_do_not(tmp_path):
