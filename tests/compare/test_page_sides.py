@@ -186,6 +186,12 @@ def test_pages_and_views_that_are_not_there_are_refused(tmp_path):
             compare(path, path, page=wrong)
 
 
+def test_beside_a_page_the_pages_of_a_document_are_named(tmp_path):
+    why = 'box.FCStd is drawn in one: to compare a page of that document, give page, on the command line --page: "Page"'
+    with pytest.raises(OptionError, match=f"is a page of 3 views, and the model of {why}"):
+        compare(page(PLACES), document(tmp_path))
+
+
 def test_a_page_is_said_only_of_documents():
     with pytest.raises(OptionError, match="no side is a FreeCAD document"):
         compare(page(PLACES), page(PLACES), page="Page")

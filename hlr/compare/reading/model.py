@@ -18,8 +18,10 @@ from hlr.compare.reading.stated_view import as_stated
 from hlr.compare.reading.view import Fit, found_view
 from hlr.errors import OptionError
 from hlr.pipeline.draw import draw_views
+from hlr.public.pages import page_names
 from hlr.request.options import Options, View
 from hlr.source.selection import open_selected
+from hlr.tables.entry import listed
 from hlr.tables.line_classes import by_number, optional
 
 if TYPE_CHECKING:
@@ -100,8 +102,7 @@ def side_of_model(
     The view is the one that the other side states, or else the named one that fits its lines best.
     """
     if other is not None and other.about.views:
-        page = f"{other.title} is a page of {len(other.about.views)} views"
-        raise OptionError(f"{page}, and a model is drawn in one: compare it with another page")
+        raise OptionError(f"{other.title} is a page of {len(other.about.views)} views, {_no_page(given)}")
     options = _options(other, tolerance_mm, choice)
     if progress is not None:
         progress("source", 0.0)
@@ -120,6 +121,17 @@ def side_of_model(
     shown = drawing.view.name if stated is None else stated.name
     about = replace(side.about, view_found=shown if view is None and other is not None else None)
     return replace(side, title=f"{name}, {shown}", about=about, behind=Behind(source, drawing, to_suit=True))
+
+
+def _no_page(given: Any) -> str:
+    """What is said of a model beside a page: it is drawn in one view. A document may have pages of its own."""
+    names = []
+    if isinstance(given, str | os.PathLike) and Path(given).suffix.lower() == ".fcstd":
+        names = [f'"{name}"' for name, _ in page_names(given)]
+    if names:
+        which = f"give page, on the command line --page: {listed(names, 'or')}"
+        return f"and the model of {Path(given).name} is drawn in one: to compare a page of that document, {which}"
+    return "and a model is drawn in one: compare it with another page, such as hlr draw --arrange makes"
 
 
 def _options(other: Side | None, tolerance_mm: float, choice: Choice) -> Options:
