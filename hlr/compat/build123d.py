@@ -11,6 +11,7 @@ from hlr.drawing.line import Line
 from hlr.errors import OptionError, SourceError, ViewError
 from hlr.request.directions import CLOSEST, axes, normalized
 from hlr.request.options import Vector
+from hlr.source.cad.objects import to_leaves
 
 if TYPE_CHECKING:
     from build123d import Edge, ShapeList
@@ -77,6 +78,8 @@ def _shape(thing: Any) -> Any:
         thing = next((shape for shape in built if shape is not None), thing)
     if not isinstance(thing, Shape):
         raise SourceError(f"An object of type {type(thing).__name__} cannot be projected: pass a build123d shape.")
+    if not to_leaves(thing, ""):
+        raise SourceError(f"{type(thing).__name__} holds no shapes: there is nothing to project.")
     return thing
 
 

@@ -194,3 +194,9 @@ def test_errors(how, error, words):
 def test_what_is_no_shape(thing):
     with pytest.raises(SourceError, match="pass a build123d shape"):
         project_to_viewport(thing, (1, 1, 1))
+
+
+@pytest.mark.parametrize("empty", [bd.Part, bd.Sketch, bd.Compound])
+def test_what_is_empty(empty):
+    with pytest.raises(SourceError, match="holds no shapes: there is nothing to project"):
+        project_to_viewport(empty(), (1, 1, 1))

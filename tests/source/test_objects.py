@@ -73,6 +73,15 @@ def test_build123d():
     assert len(centres(box.faces())) == 6
 
 
+def test_empty_shapes_of_build123d_are_nothing_to_draw():
+    """Their shape of OpenCASCADE cannot even be asked for."""
+    bd = pytest.importorskip("build123d")
+    for empty in (bd.Part(), bd.Sketch(), bd.Curve(), bd.Compound(), bd.Solid(), [bd.Part(), bd.Face()]):
+        with pytest.raises(SourceError, match="holds no shapes: there is nothing to draw"):
+            open_source(empty)
+    assert len(centres([bd.Part(), bd.Box(1, 2, 3)])) == 1
+
+
 @pytest.mark.parametrize("thing", [5, None, [], {}, (1, 2), np.zeros((3, 3)), object(), [cq, cq]])
 def test_anything_else_is_one_sentence(thing):
     with pytest.raises(SourceError, match="cannot be drawn"):

@@ -114,10 +114,10 @@ def _build123d(thing: Any, name: str, color: Color | None, opacity: float, path:
     shape = _wrapped(thing)
     if shape is not None:
         return [Leaf(shape, name, color, opacity=opacity)]
+    if _is_instance_of(thing, "Shape", "Builder"):
+        return []  # before what can be iterated over: an empty Part cannot
     if isinstance(thing, Iterable):
         return [leaf for item in thing for leaf in to_leaves(item, name, color, opacity)]
-    if _is_instance_of(thing, "Shape", "Builder"):
-        return []
     raise SourceError(f"A build123d.{type(thing).__name__} cannot be drawn: pass a shape or a builder.")
 
 
@@ -130,7 +130,11 @@ def _placed(parent: Any, child: Any, name: str, path: str, color: Color | None, 
 
 
 def _wrapped(thing: Any) -> Any:
-    shape = getattr(thing, "wrapped", None)
+    """The shape of OpenCASCADE that an object holds; None: it holds none."""
+    try:
+        shape = getattr(thing, "wrapped", None)
+    except AssertionError:  # build123d's answer where a shape is empty
+        return None
     return shape if shape is not None and type(shape).__name__.startswith("TopoDS_") else None
 
 
