@@ -66,16 +66,29 @@ def check(values: Mapping[str, Any], views: tuple[Any, ...], root: str, arrange:
 
 
 def wrong_one(values: Mapping[str, Any], root: str, arrange: str = "") -> str | None:
-    """The first of these options that is refused by itself; None: only together they are."""
+    """The first of these options that is refused, by itself or else beside those before it; None: the views are."""
     for name, value in values.items():
-        try:
-            # Some sections are said by their views.
-            views = tuple(value) if name == "section" and isinstance(value, Mapping) else ("iso",)
-            beside = {"section": {"iso": True}} if name == "uncut" and values.get("section") else {}
-            check({name: value, **beside}, views, root, arrange)
-        except HlrError:
+        # Parts are left whole in sections alone.
+        beside = {"section": {"iso": True}} if name == "uncut" and values.get("section") else {}
+        if _is_refused({name: value, **beside}, root, arrange):
+            return name
+    names = sorted(values, key=lambda name: name != "section")  # `uncut` is nothing without it
+    for number, name in enumerate(names):
+        if _is_refused({each: values[each] for each in names[: number + 1]}, root, arrange):
             return name
     return None
+
+
+def _is_refused(values: Mapping[str, Any], root: str, arrange: str) -> bool:
+    """Whether options are refused beside a view that any options can have."""
+    section = values.get("section")
+    # Some sections are said by their views.
+    views = tuple(section) if isinstance(section, Mapping) else ("iso",)
+    try:
+        check(values, views, root, arrange)
+    except HlrError:
+        return True
+    return False
 
 
 def _tuples(value: Any) -> Any:

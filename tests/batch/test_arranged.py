@@ -8,7 +8,7 @@ from batch.models import Silent
 from hlr.batch.carry_out import carry_out
 from hlr.batch.kept import Kept
 from hlr.batch.keys import Digests, key_of
-from hlr.batch.manifest import manifest_of
+from hlr.batch.manifest import manifest_of, read
 from hlr.batch.plan import plan
 from hlr.batch.request import wrong_one
 from hlr.batch.run import run
@@ -77,6 +77,15 @@ def test_the_key_that_is_wrong_is_found_beside_sections():
     values = {"section": {"front": True}, "uncut": ["bolt"], "crease": 999}
     assert wrong_one(values, "", "first-angle") == wrong_one(values, "") == "crease"
     assert wrong_one({"hidden": True, "section": {"front": "x"}}, "") == "section"
+    assert wrong_one({"uncut": ["bolt"], "section": {"front": True}, "page": "A4", "fit": "A4"}, "") == "fit"
+    assert wrong_one({"uncut": ["bolt"], "section": {"front": True}, "page": "A4"}, "") is None
+
+
+def test_options_that_contradict_one_another_are_refused_with_the_line_of_one(tmp_path):
+    (tmp_path / "part.off").write_text(MESH)
+    (tmp_path / "hlr.toml").write_text('files = "part.off"\nfit = "A4"\npage = "A4"\n')
+    with pytest.raises(OptionError, match=r"hlr\.toml, line 3, page: page and fit both name a sheet"):
+        run(plan(read(tmp_path / "hlr.toml"), tmp_path / "out"), Kept(None, Digests()), pytest.fail, Silent())
 
 
 def test_another_method_is_another_drawing(tmp_path):
