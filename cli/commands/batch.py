@@ -93,7 +93,7 @@ CHANGED = 3
 @click.option("--dry-run", is_flag=True, help="Print which sources would be drawn, and which are unchanged.")
 @click.option("--watch", is_flag=True, help="Stay, and draw again what changes on disk. Ctrl-C ends it.")
 @NO_CACHE
-@click.option("-q", "--quiet", is_flag=True, help="Print failures only.")
+@click.option("-q", "--quiet", is_flag=True, help="Print failures only, and with --fail-on-change a change.")
 def batch(
     *,
     sources: tuple[str, ...],
@@ -301,11 +301,12 @@ def _round(
         if kept.not_kept:
             remark(f"the next run draws again what it should find in the cache: it cannot be kept ({kept.not_kept})")
         say(_said(done, time.monotonic() - started))
-        if changed is not None:
-            say(f"since {earlier.name}: {changed}")
+    fails = earlier.fails and changed is not None and changed.any
+    if changed is not None and (fails or not display.quiet):
+        say(f"since {earlier.name}: {changed}")
     if report["counts"]["failed"]:
         return FAILED, done
-    return CHANGED if earlier.fails and changed is not None and changed.any else 0, done
+    return CHANGED if fails else 0, done
 
 
 def _said(done: Done, seconds: float) -> str:
