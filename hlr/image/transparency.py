@@ -37,7 +37,8 @@ def hiding(scene: Scene, looks: Mapping[str, Appearance]) -> list[Note]:
     if not clear:
         return []
     which = f'Part "{clear[0]}" is transparent and hides' if len(clear) == 1 else f"{len(clear)} transparent parts hide"
-    return [Note("glass-hides", f"{which} what is behind, as in other CAD drawings: see_through shows it.")]
+    cure = "--see-through shows it (in Python, see_through=True)"
+    return [Note("glass-hides", f"{which} what is behind, as in other CAD drawings: {cure}.")]
 
 
 def without_glass(image: Image, glass: npt.NDArray[np.bool_]) -> Image:

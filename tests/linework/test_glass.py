@@ -30,6 +30,7 @@ def test_glass_hides_and_a_remark_says_so() -> None:
     assert seen(drawing, "bulb") == 0 and seen(drawing, "glass") == 9
     (note,) = [note for note in drawing.notes if note.code == "glass-hides"]
     assert not note.is_warning and str(note).startswith('Part "glass" is transparent and hides')
+    assert str(note).endswith("--see-through shows it (in Python, see_through=True).")
     hlr.draw(lamp(), strict=True, **AT_SIZE)
 
 

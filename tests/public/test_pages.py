@@ -178,6 +178,16 @@ def test_an_object_that_is_named_lies_where_it_lies_in_the_document(tmp_path):
     assert boxes(drawing) == {"Front": [90, 35, 110, 65]}
 
 
+def test_on_a_page_glass_hides_without_a_remark(tmp_path):
+    """The remark names an option that pages do not take."""
+    red = {"ShapeColor": whole(0xFF0000FF), "Transparency": whole(50)}
+    glass = item("Part::Box", Shape=kept("Part", "box.brp"), view=red)
+    path = page(tmp_path, {"Front": view(Source=links("Glass", "Pin")), "_Glass": glass})
+    assert [note.code for note in hlr.draw(path, only=["Glass", "Pin"]).notes] == ["glass-hides"]
+    (drawing,) = hlr.draw_pages(path)
+    assert drawing.notes == ()
+
+
 def test_perspective_looks_at_the_middle(tmp_path):
     views = {"Eye": view(Perspective=flag(True), Focus=number(40.0))}
     (drawing,) = hlr.draw_pages(page(tmp_path, views))

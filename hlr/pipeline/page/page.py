@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 MARGIN = 10.0
 """Millimetres around the views of a page that has no template, and so no size."""
 
-OF_ONE_VIEW = {"hidden-objects-left-out", "thin-lines", "crowded", "paper-size", "nothing-in-view"}
-"""Notes that say nothing of a page: its views choose objects, widths and scales."""
+OF_ONE_VIEW = {"hidden-objects-left-out", "glass-hides", "thin-lines", "crowded", "paper-size", "nothing-in-view"}
+"""Notes that say nothing of a page: its views choose objects, what is seen of them, widths and scales."""
 
 
 def part_of(progress: Progress, number: int, count: int) -> Progress:
