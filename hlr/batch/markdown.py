@@ -38,7 +38,7 @@ def document(found: dict[str, Any]) -> bytes:
         _table(
             "Slowest",
             ("source", "seconds", "memory, MB"),
-            [(title(s), f"{s['cost']['seconds']:.2f}", f"{s['cost']['peak_memory_mb']:.0f}") for s in slowest],
+            [(title(s), f"{s['cost']['seconds']:.2f}", _memory(s)) for s in slowest],
         ),
     ]
     return "\n".join(filter(None, parts)).encode("utf-8", "replace")
@@ -54,6 +54,12 @@ def _changed(found: dict[str, Any]) -> str:
     ]
     rows += [(name, "gone", "no longer drawn") for name in found.get("gone", ())]
     return _table("Changed", ("drawing", "state", "what"), rows)
+
+
+def _memory(source: dict[str, Any]) -> str:
+    """What a source took; of one that was ended, nobody knows."""
+    taken = source["cost"]["peak_memory_mb"]
+    return f"{taken:.0f}" if taken else "unknown"
 
 
 def _table(heading: str, columns: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:

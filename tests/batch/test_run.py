@@ -6,8 +6,10 @@ import random
 import time
 
 import pytest
+from batch import reports
 from batch.models import FakePool, Silent, tetrahedron
 
+from hlr.batch import markdown
 from hlr.batch.kept import Kept
 from hlr.batch.keys import Digests
 from hlr.batch.manifest import manifest_of
@@ -219,6 +221,14 @@ def test_options_are_refused_before_anything_is_drawn(go, tmp_path):
     with pytest.raises(OptionError, match="crease 200 is not a crease angle"):
         go(pool, crease=200)
     assert pool.asked == [] and not (tmp_path / "out").exists()
+
+
+def test_the_memory_of_a_source_that_was_ended_is_unknown():
+    ended = reports.source("ended.py", error="It was ended.")
+    whole = reports.source("a.off", reports.drawing("a.svg"))
+    ended["cost"] = {"seconds": 9.0, "peak_memory_mb": 0.0}
+    slowest = markdown.document(reports.report(ended, whole)).decode().partition("## Slowest")[2]
+    assert "| ended.py | 9.00 | unknown |\n| a.off | 0.50 | 1 |" in slowest
 
 
 def test_the_report_says_all_there_is(go, tmp_path):
