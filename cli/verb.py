@@ -11,8 +11,14 @@ class Verb(click.Command):
     """A command whose options are given once; flags and options marked `multiple` may be repeated."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Parse as click does. Raises UsageError where an option with a value is given twice."""
-        _, _, order = self.make_parser(ctx).parse_args(list(args))
+        """Parse as click does. Raises UsageError where an option with a value is given twice, or a name too many."""
+        _, more, order = self.make_parser(ctx).parse_args(list(args))
+        taken = [each.human_readable_name for each in self.params if isinstance(each, click.Argument)]
+        if more and taken:
+            cure = "; hlr batch draws many" if self.name == "draw" else ""
+            raise click.UsageError(
+                f"{ctx.command_path} takes {' and '.join(taken)}, and {more[0]!r} is one more{cure}", ctx
+            )
         once: set[click.Parameter] = set()
         for option in order:
             if not isinstance(option, click.Option) or option.is_flag or option.multiple:

@@ -74,6 +74,7 @@ def test_a_preview_into_a_folder(hlr_real, tmp_path):
         (["--eye", "1,2,3", "--view", "top"], "--eye and --view contradict"),
         (["--scale", "2", "--scale", "3"], "--scale is given twice"),
         (["--fit", "A7x"], "A4-landscape"),
+        (["b.step"], "draw takes SOURCE, and 'b.step' is one more; hlr batch draws many"),
     ],
 )
 def test_contradictions_are_refused(hlr_command, tmp_path, arguments, words):
