@@ -138,7 +138,7 @@ fn proved(
     steps: &Progress,
 ) -> Result<Draft, Box<Outline>> {
     let mut made = made?;
-    made.outline.rejoin(&mut made.triangles);
+    made.outline.rejoin(&mut made.triangles, steps);
     let uv: Vec<_> = made.corners.iter().map(|c| c.uv).collect();
     let in_chart = made.bent_chart.as_ref().map(|_| made.triangles.clone());
     flip::upright(&uv, &mut made.triangles);

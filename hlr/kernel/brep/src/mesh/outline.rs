@@ -1,6 +1,8 @@
 //! The loops of a face as one list of points with links from each to the next.
 
 use super::face::{FaceLoops, Fault};
+use super::progress::Progress;
+use rustc_hash::FxHashMap;
 
 /// Points of all loops, one loop after the other; then points that were added on poles.
 #[derive(Clone, Debug, Default)]
@@ -81,16 +83,27 @@ impl Outline {
     }
 
     /// Restores points set aside that have a node of their own, each with a triangle of zero area.
-    pub fn rejoin(&mut self, triangles: &mut Vec<[u32; 3]>) {
-        for (point, beside) in std::mem::take(&mut self.aside).into_iter().rev() {
-            if self.nodes[point as usize] == self.nodes[beside as usize] {
-                continue;
-            }
+    pub fn rejoin(&mut self, triangles: &mut Vec<[u32; 3]>, steps: &Progress) {
+        let mut aside = std::mem::take(&mut self.aside);
+        aside.retain(|&(point, beside)| self.nodes[point as usize] != self.nodes[beside as usize]);
+        let mut around = at_places(aside.iter().map(|&(_, beside)| beside), triangles);
+        for (point, beside) in aside.into_iter().rev() {
             let next = self.after[beside as usize];
             let turns = |t: &[u32; 3]| [0, 1, 2].map(|k| [t[k], t[(k + 1) % 3], t[(k + 2) % 3]]);
             let on_chord = |[a, b, _]: &[u32; 3]| (*a == beside && *b == next) || (*a == next && *b == beside);
-            let found = triangles.iter().enumerate().find_map(|(i, t)| Some((i, turns(t).into_iter().find(on_chord)?)));
-            let Some((number, [a, b, c])) = found else { continue };
+            let Some(near) = around.get_mut(&beside) else { continue };
+            steps.steps(near.len() as u64);
+            let found = near
+                .iter()
+                .enumerate()
+                .find_map(|(k, &i)| Some((k, i, turns(&triangles[i]).into_iter().find(on_chord)?)));
+            let Some((k, number, [a, b, c])) = found else { continue };
+            // Of the two triangles the new one is at `beside`, and both are at `c`.
+            near.remove(k);
+            near.push(triangles.len());
+            if let Some(near) = around.get_mut(&c) {
+                near.push(triangles.len());
+            }
             triangles[number] = if a == beside { [point, b, c] } else { [a, point, c] };
             triangles.push(if a == beside { [a, point, c] } else { [point, b, c] });
             self.after[beside as usize] = point;
@@ -193,5 +206,62 @@ impl Outline {
         self.uv
             .iter()
             .fold(start, |[low, high], p| [[0, 1].map(|k| low[k].min(p[k])), [0, 1].map(|k| high[k].max(p[k]))])
+    }
+}
+
+/// The triangles at each of some points, by number.
+fn at_places(places: impl Iterator<Item = u32>, triangles: &[[u32; 3]]) -> FxHashMap<u32, Vec<usize>> {
+    let mut out: FxHashMap<u32, Vec<usize>> = places.map(|place| (place, Vec::new())).collect();
+    if out.is_empty() {
+        return out;
+    }
+    for (number, corners) in triangles.iter().enumerate() {
+        for corner in corners {
+            if let Some(found) = out.get_mut(corner) {
+                found.push(number);
+            }
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::LoopPoint;
+
+    /// A loop around a polygon of so many corners, each of which is there twice, as two nodes.
+    fn doubled(corners: u32) -> FaceLoops {
+        let point = |i: u32| {
+            let angle = std::f64::consts::TAU * f64::from(i / 2) / f64::from(corners);
+            let uv = [hlr_exact::elementary::cos(angle), hlr_exact::elementary::sin(angle)];
+            LoopPoint { uv, point: [uv[0], uv[1], 0.0], node: i }
+        };
+        FaceLoops { loops: vec![(0..2 * corners).map(point).collect()], periods: [0.0; 2] }
+    }
+
+    #[test]
+    fn points_that_were_set_aside_come_back_in_few_steps() {
+        const CORNERS: u32 = 3000;
+        let mut outline = Outline::new(&doubled(CORNERS), |_, _, _| ()).unwrap();
+        let kept: Vec<u32> = outline.chords().collect();
+        assert_eq!(kept.len(), CORNERS as usize);
+        // Triangles in strips: no corner has more than a few.
+        let (mut low, mut high, mut triangles) = (0, kept.len() - 1, Vec::new());
+        while low + 1 < high {
+            let next = if triangles.len() % 2 == 0 { low + 1 } else { high - 1 };
+            triangles.push([kept[low], kept[next], kept[high]]);
+            if triangles.len() % 2 == 1 { low = next } else { high = next }
+        }
+        let steps = Progress::free();
+        outline.rejoin(&mut triangles, &steps);
+        assert_eq!(triangles.len(), 2 * CORNERS as usize - 2);
+        assert_eq!(outline.chords().count(), 2 * CORNERS as usize);
+        for chord in outline.chords() {
+            let next = outline.after(chord);
+            let on = triangles.iter().filter(|t| t.contains(&chord) && t.contains(&next)).count();
+            assert_eq!(on, 1, "each chord is the side of one triangle");
+        }
+        assert!(steps.count() < 8 * u64::from(CORNERS), "{} steps", steps.count());
     }
 }
