@@ -41,6 +41,9 @@ pub fn triangulate(surface: &Surface, outline: &Outline, deflection: f64, steps:
 
 type Triangles = (Vec<[u32; 3]>, Vec<u32>, f64);
 
+/// Steps for which looking at one edge on a spline surface counts: eight points of the surface.
+const SPLINE_STEPS: u64 = 256;
+
 /// `swapped`: the outline has (v, u) in place of (u, v).
 fn upright(
     surface: &Surface,
@@ -63,8 +66,9 @@ fn upright(
         without_needles(&outline.uv, &mut triangles);
         return Some((triangles, stand_in, 0.0));
     }
+    let cost = if let Surface::Spline(_) = surface { SPLINE_STEPS } else { 1 };
     let error = |a: u32, b: u32| {
-        steps.step();
+        steps.steps(cost);
         edge_error(surface, outline.uv[a as usize], outline.uv[b as usize], swapped)
     };
     let worst = |triangles: &[[u32; 3]]| {
