@@ -93,7 +93,7 @@ def finished(
     if not plan.crossings and counters["seeds"]:
         for name in ("crossing search", "piercing search"):
             planner.revised(name, True, "one convex body, but rounded its faces overlap in the image")
-    seconds = segments.seconds
+    seconds = segments.found.seconds
     for name, steps in STEPS.items():
         planner.spent(name, sum(seconds[s] for s in steps))
     cuts = sum(sum(planner.cost(name).values()) for name in ("near clipping", "side clipping"))
@@ -144,7 +144,7 @@ def _counters(solved: Solved, lines: Sequence[Line], fill: Fill | None) -> dict[
     kinds = np.bincount(kept.kinds(), minlength=len(by_number())).tolist()
     faces = 0 if fill is None else len(fill.faces) - 1
     return {
-        **segments.counters,
+        **segments.found.counters,
         "lines": len(lines),
         "outlines": 0 if image.silhouettes is None else len(image.silhouettes.curves.kind),
         "divided_points": len(image.points) if plan.divide else 0,

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.common.types import Floats, Ints
+from hlr.common.types import Floats
 from hlr.image.image import Image
 from hlr.visibility.plan import Plan
 
@@ -17,44 +16,14 @@ VISIBLE, HIDDEN, WITHIN, DIVING = 0, 1, 2, 3
 
 @dataclass(frozen=True, slots=True)
 class Segments:
-    """Pieces of mesh edges, sorted by edge and parameter. The kernel holds them.
+    """Pieces of mesh edges, as the kernel holds them.
 
-    found: the pieces; mesh, groups: what they were found on.
+    found: the pieces, sorted by edge and parameter, states numbered as above; mesh, groups: what they were found on
     """
 
     found: _kernel.Visibility
     mesh: _kernel.Mesh
     groups: _kernel.Groups
-
-    @property
-    def edge(self) -> Ints:
-        """(s,) the edge of each piece."""
-        return self.found.edge
-
-    @property
-    def t0(self) -> Floats:
-        """(s,) where each piece begins, from the edge's first to its second vertex on the image, 0 to 1."""
-        return self.found.t0
-
-    @property
-    def t1(self) -> Floats:
-        """(s,) where each piece ends."""
-        return self.found.t1
-
-    @property
-    def state(self) -> npt.NDArray[np.uint8]:
-        """(s,) VISIBLE, HIDDEN, WITHIN: hidden by less than the contact tolerance; DIVING: so, on the way to hidden."""
-        return self.found.state
-
-    @property
-    def counters(self) -> dict[str, int]:
-        """What the kernel counted."""
-        return self.found.counters
-
-    @property
-    def seconds(self) -> dict[str, float]:
-        """Of the kernel's steps."""
-        return self.found.seconds
 
 
 def solve(image: Image, plan: Plan, lifted: Floats, arithmetic: str = "exact") -> Segments:

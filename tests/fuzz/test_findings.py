@@ -7,6 +7,7 @@ import itertools
 import numpy as np
 
 from hlr import _kernel
+from support.visibility.wire import mesh_with_wire
 
 VISIBLE, HIDDEN, WITHIN = 0, 1, 2
 
@@ -19,15 +20,7 @@ def states_behind_a_valley(own: float, other: float) -> list[int]:
     points = [[0, -10, 0], [0, 10, 0], [10, -10, 4], [10, 10, 4], [20, -10, 0], [20, 10, 0], [2, 0, 6], [18, 0, 6]]
     points += [[0, 0, -640], [0, 0, 640]]  # the kernel caps the tolerance at a fraction of the depth of all points
     triangles = np.array([[0, 2, 1], [1, 2, 3], [2, 4, 3], [3, 4, 5]], np.int32)
-    edges, offsets, incident = _kernel.edge_table(triangles, len(points))
-    wire = len(edges)
-    mesh = _kernel.Mesh(
-        np.array(points, float),
-        triangles,
-        np.concatenate([edges, np.array([[6, 7]], np.int32)]),
-        np.append(offsets, offsets[-1]).astype(np.int32),
-        incident,
-    )
+    mesh, wire = mesh_with_wire(np.array(points, float), triangles, (6, 7))
     groups = _kernel.Groups(
         np.ones(4, np.int32),
         np.array([1] * wire + [0], np.int32),

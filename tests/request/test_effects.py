@@ -235,7 +235,7 @@ def test_culling_alone_says_of_convex_bodies_what_the_search_says(seed, count, v
     points = np.random.default_rng(seed).normal(size=(count, 3)) * 20
     hull = trimesh.Trimesh(points).convex_hull
     plain, found = both(hull, view, "crossings")
-    assert found.counters["by_culling_alone"] > 0 and found.counters["seeds"] == 0
+    assert found.found.counters["by_culling_alone"] > 0 and found.found.counters["seeds"] == 0
     expect_same_pieces(plain, found)
 
 
@@ -249,8 +249,8 @@ def test_what_the_pyramid_discards_is_hidden(view):
         expect_same_pieces(plain, found)
         if view == "front" and len(plain.found.facing) < 1000:
             # All edges of the boxes behind the plate that are not seen end-on.
-            assert found.counters["hidden_by_pyramid"] == 9 * 8
-        assert plain.counters["hidden_by_pyramid"] == 0
+            assert found.found.counters["hidden_by_pyramid"] == 9 * 8
+        assert plain.found.counters["hidden_by_pyramid"] == 0
 
 
 def both(model, view, name):

@@ -9,6 +9,7 @@ from hlr import _kernel
 from hlr.image.image import OwnFaces
 from hlr.visibility import segments
 from hlr.visibility.segments import DIVING, HIDDEN, VISIBLE, WITHIN
+from support.visibility.wire import mesh_with_wire
 
 ANSWER = SimpleNamespace(
     edge=np.array([0, 0, 3], np.int32),
@@ -41,7 +42,7 @@ def solve(monkeypatch):
 
 
 def test_the_answer_is_handed_on(solve):
-    found = solve()
+    found = solve().found
     assert found.edge.tolist() == [0, 0, 3] and found.state.tolist() == [VISIBLE, WITHIN, HIDDEN]
     assert found.t0.tolist() == [0.0, 0.5, 0.25] and found.t1.tolist() == [0.5, 1.0, 1.0]
     assert found.counters == {"seeds": 7} and found.seconds == {"scan": 0.5}
@@ -67,14 +68,7 @@ WIRE = 5
 
 def seen(tight=False, hidden=None, depth=1.5):
     """The pieces of the wire and of `hidden` edges: edge and state. tight: the wire runs on the square's surface."""
-    edges, offsets, incident = _kernel.edge_table(TRIANGLES, len(POINTS))
-    mesh = _kernel.Mesh(
-        POINTS,
-        TRIANGLES,
-        np.concatenate([edges, np.array([[4, 5]], np.int32)]),
-        np.append(offsets, offsets[-1]).astype(np.int32),
-        incident,
-    )
+    mesh, _ = mesh_with_wire(POINTS, TRIANGLES, (4, 5))
     groups = _kernel.Groups(
         np.zeros(2, np.int32),
         np.array([0] * WIRE + [1], np.int32),

@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from hlr._kernel import Visibility
 from hlr.common.types import Floats, Ints
 from hlr.image.image import Image
 from hlr.visibility.plan import Plan
-from hlr.visibility.segments import HIDDEN, Segments, solve
+from hlr.visibility.segments import HIDDEN, solve
 
 KINDS = ("exact", "f64", "f32")
 REPEATS = 5
@@ -50,19 +51,19 @@ def compared(image: Image, plan: Plan, projected: Floats, per_model: float, accu
     """All kinds on one image, the exact one first; projected (n, 3) as the visibility pass takes it."""
     length = np.hypot(*(projected[image.edges[:, 1], :2] - projected[image.edges[:, 0], :2]).T) * per_model
     out: list[Rounding] = []
-    truth: Segments | None = None
+    truth: Visibility | None = None
     clocks: dict[str, list[tuple[float, float]]] = {kind: [] for kind in KINDS}
-    found: dict[str, Segments] = {}
+    found: dict[str, Visibility] = {}
     for _ in range(REPEATS):  # in turns, so that other load on the machine affects all kinds alike
         for kind in KINDS:
             wall, cpu = time.perf_counter(), time.process_time()
-            found[kind] = solve(image, plan, projected, kind)
+            found[kind] = solve(image, plan, projected, kind).found
             clocks[kind].append((time.perf_counter() - wall, time.process_time() - cpu))
     for kind in KINDS:
-        segments = found[kind]
-        truth = truth or segments
-        wrong = _wrong(truth, segments, length)
-        counters: dict[str, Any] = segments.counters
+        pieces = found[kind]
+        truth = truth or pieces
+        wrong = _wrong(truth, pieces, length)
+        counters: dict[str, Any] = pieces.counters
         out.append(
             Rounding(
                 arithmetic=kind,
@@ -87,7 +88,7 @@ SAME = 1e-9
 """Share of an edge: ends of pieces closer than this are the same point, rounded differently."""
 
 
-def _wrong(truth: Segments, other: Segments, length: Floats) -> Floats:
+def _wrong(truth: Visibility, other: Visibility, length: Floats) -> Floats:
     """(e,) millimetres of each edge that are hidden in one result and visible in the other."""
     edge, at, a, b = _merged(truth, other)
     last = np.append(edge[1:] != edge[:-1], True)
@@ -102,7 +103,7 @@ def _hidden(state: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
     return np.where(state == NOTHING, NOTHING, state == HIDDEN).astype(np.uint8)
 
 
-def _merged(a: Segments, b: Segments) -> tuple[Ints, Floats, npt.NDArray[np.uint8], npt.NDArray[np.uint8]]:
+def _merged(a: Visibility, b: Visibility) -> tuple[Ints, Floats, npt.NDArray[np.uint8], npt.NDArray[np.uint8]]:
     """Where a piece of either result begins: edge and parameter, sorted; and the states of both from there on."""
     edge = np.concatenate([a.edge, b.edge])
     at = np.concatenate([a.t0, b.t0])

@@ -138,14 +138,14 @@ impl Cut {
                 noisy: about.noisy,
             };
             let traits: Vec<Trait> = chains.about.iter().enumerate().map(trait_of).collect();
-            let found = run(py, chains.edges.len(), |stopped| {
+            let lines = run(py, chains.edges.len(), |stopped| {
                 let (pieces, piece_edge) = (&found.pieces[..], &found.edge[..]);
                 let geometry = Geometry { camera: &camera, space, meshed, edges, pieces, piece_edge };
-                let mut found = cut(&geometry, chains, &traits, &cutting, stopped)?;
+                let mut lines = cut(&geometry, chains, &traits, &cutting, stopped)?;
                 if !hidden {
-                    found.keep_sighted(traits.len());
+                    lines.keep_sighted(traits.len());
                 }
-                Some(found)
+                Some(lines)
             })?
             .ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
             Ok(Cut {
@@ -154,9 +154,9 @@ impl Cut {
                 camera,
                 fit,
                 hidden,
-                chain: found.lines.iter().map(|line| line.chain as i32).collect(),
-                drawn: found.lines.iter().filter(|line| line.visible || hidden).count(),
-                found: Mutex::new(Some(found)),
+                chain: lines.lines.iter().map(|line| line.chain as i32).collect(),
+                drawn: lines.lines.iter().filter(|line| line.visible || hidden).count(),
+                found: Mutex::new(Some(lines)),
             })
         })
     }
