@@ -86,6 +86,14 @@ pub fn crossing<A: Arithmetic>(a: &Point, b: &Point, p: &Point, q: &Point) -> Op
     })
 }
 
+/// Whether a triangle lies strictly on one side of the line a -> b in the image: then it neither hides any of the
+/// segment, nor is crossed or pierced by it.
+#[inline(always)]
+pub fn is_beside<A: Arithmetic>(a: &Point, b: &Point, triangle: [&Point; 3]) -> bool {
+    let [p, q, r] = triangle.map(|v| orient2d::<A>(a, b, v).sign());
+    p != 0 && p == q && q == r
+}
+
 /// A triangle with non-zero image area, turned counter-clockwise, ready for point queries.
 #[derive(Clone, Copy, Debug)]
 pub struct Cover<A: Arithmetic> {
@@ -211,6 +219,26 @@ mod tests {
         assert_eq!(t.hides_end(&[1, 1, 0], &[3, 3, 0], 0), (false, false));
         assert_eq!(t.hides_end(&[1, 1, 0], &[3, 3, 5], 0), (true, true));
         assert_eq!(t.hides_end(&[1, 1, 3], &[3, 3, 3], 3), (true, false));
+    }
+
+    #[test]
+    fn a_triangle_beside_a_segment_does_nothing_to_it() {
+        let (mut state, mut beside) = (1u64, 0);
+        let mut random = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((state >> 33) % 7) as i32
+        };
+        for _ in 0..20_000 {
+            let [a, b, p, q, r] = [(); 5].map(|()| [random(), random(), random()]);
+            let Some(cover) = Cover::new(&p, &q, &r) else { continue };
+            if !is_beside::<Exact>(&a, &b, [&p, &q, &r]) {
+                continue;
+            }
+            beside += 1;
+            assert_eq!([cover.hides_end(&a, &b, 1), cover.hides_end(&b, &a, 1)], [(false, false); 2]);
+            assert!((0..3).all(|k| crossing(&a, &b, cover.edge(k).0, cover.edge(k).1).is_none()));
+        }
+        assert!(beside > 5000);
     }
 
     #[test]

@@ -2,5 +2,6 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+pub mod boxes;
 pub mod clash;
 pub mod scan;

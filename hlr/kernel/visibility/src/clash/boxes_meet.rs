@@ -1,7 +1,8 @@
 //! Which boxes come near another one: where none does, no search is needed.
 
 use super::reach::Vec3;
-use crate::scan::box_tree::{Aabb, BoxTree};
+use crate::boxes::aabb::{Aabb, Item};
+use crate::boxes::tree::Tree;
 use hlr_exact::snap::Grid;
 
 /// Per box (low, high) whether it comes near another one: always true where it does, rarely where it does not. A box
@@ -16,7 +17,8 @@ pub fn boxes_meet(low: &[Vec3], high: &[Vec3]) -> Option<Vec<bool>> {
         .iter()
         .map(|&i| Aabb { low: grid.snap(&low[i]).map(|c| c - 1), high: grid.snap(&high[i]).map(|c| c + 1) })
         .collect();
-    let tree = BoxTree::new(boxes.iter().enumerate().map(|(k, b)| (*b, k as u32)).collect());
+    let items: Vec<Item> = boxes.iter().enumerate().map(|(k, b)| (*b, k as u32)).collect();
+    let tree = Tree::new(&items);
     let mut meets = vec![false; low.len()];
     for (k, &i) in used.iter().enumerate() {
         tree.query(&boxes[k], |other| meets[i] |= other as usize != k);

@@ -4,10 +4,11 @@ use rayon::prelude::*;
 
 use super::height_field::{MOST, is_height_field, only_at, seen_along};
 use super::surfaces::Surfaces;
-use super::tree::{Found, Tree};
 use super::triangle_pair::{Meeting, Numbered, apart, lies_on, meet, on_one_side};
 use super::uncrossed::{UncrossedFaces, uncrossed_faces};
-use crate::scan::box_tree::{Aabb, BoxTree, Item};
+use crate::boxes::aabb::{Aabb, Item};
+use crate::boxes::pairs::Found;
+use crate::boxes::tree::Tree;
 
 /// With fewer triangles a second thread gains nothing.
 const MANY: usize = 1 << 12;
@@ -86,7 +87,7 @@ impl Surfaces<'_> {
         };
         let tree = |of: &[u32]| {
             let items: Vec<Item> = of.par_iter().with_min_len(MANY).map(|&t| (self.bounds(t), t)).collect();
-            Tree::new(&items, &seen)
+            Tree::with_kinds(&items, &seen)
         };
         // Of each group a tree of what may cross something of it, and one of its uncrossed faces, which may cross others.
         let trees: Vec<[Tree; 2]> = members
@@ -205,7 +206,8 @@ impl Surfaces<'_> {
     /// themselves on request.
     fn pairs(&self, boxes: &[Aabb], members: &[&[u32]]) -> Vec<[u32; 2]> {
         let live = (0..boxes.len() as u32).filter(|&g| !members[g as usize].is_empty());
-        let tree = BoxTree::new(live.clone().map(|g| (boxes[g as usize], g)).collect());
+        let items: Vec<Item> = live.clone().map(|g| (boxes[g as usize], g)).collect();
+        let tree = Tree::new(&items);
         let mut pairs = Vec::new();
         for a in live {
             if self.itself[a as usize] {

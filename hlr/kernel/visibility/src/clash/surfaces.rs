@@ -2,7 +2,7 @@
 
 use super::planar_faces::PlanarFaces;
 use super::triangle_pair::Numbered;
-use crate::scan::box_tree::Aabb;
+use crate::boxes::aabb::Aabb;
 use hlr_exact::Point;
 
 pub struct Surfaces<'a> {

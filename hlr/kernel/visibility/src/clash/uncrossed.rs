@@ -13,7 +13,8 @@ use rayon::prelude::*;
 
 use super::planar_faces::{NO_PLANE, PlanarFaces};
 use super::surfaces::Surfaces;
-use crate::scan::box_tree::{Aabb, BoxTree};
+use crate::boxes::aabb::{Aabb, Item};
+use crate::boxes::tree::Tree;
 
 /// To try the triangles of a smaller face costs less than to find out that nothing crosses it.
 const FEW: u32 = 48;
@@ -87,11 +88,11 @@ pub fn uncrossed_faces(surfaces: &Surfaces, stopped: &(dyn Fn() -> bool + Sync))
     let faces = large_faces(surfaces);
     let planes: Vec<Option<Plane>> = faces.iter().map(|face| plane(face.as_ref()?)).collect();
     let with_plane = faces.iter().zip(&planes).enumerate().filter(|(_, (_, plane))| plane.is_some());
-    let boxes: Vec<_> = with_plane.filter_map(|(f, (face, _))| Some((face.as_ref()?.bounds, f as u32))).collect();
+    let boxes: Vec<Item> = with_plane.filter_map(|(f, (face, _))| Some((face.as_ref()?.bounds, f as u32))).collect();
     if boxes.is_empty() {
         return UncrossedFaces::default();
     }
-    let tree = BoxTree::new(boxes);
+    let tree = Tree::new(&boxes);
     let met: Vec<AtomicU32> = faces.iter().map(|_| AtomicU32::new(0)).collect();
     let add_exceptions = |t: u32, out: &mut Vec<(i32, u32)>| {
         let (group, corners) = (surfaces.group[t as usize], &surfaces.triangles[t as usize]);

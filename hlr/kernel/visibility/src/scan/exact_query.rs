@@ -6,19 +6,20 @@
 use std::sync::OnceLock;
 
 use super::active_spans::Count;
-use super::box_tree::{Aabb, BoxTree};
 use super::invisibility::{Event, Segment, walk};
 use super::mesh::Mesh;
 use super::piercing::pierce;
 use super::polygon_table::PolygonTable;
+use crate::boxes::aabb::Aabb;
+use crate::boxes::tree::Tree;
 use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
-use hlr_exact::predicates::crossing;
+use hlr_exact::predicates::{crossing, is_beside};
 
 pub struct ExactQuery<'a> {
     mesh: &'a Mesh<'a>,
     table: &'a PolygonTable,
-    tree: OnceLock<BoxTree>,
+    tree: OnceLock<Tree>,
 }
 
 impl<'a> ExactQuery<'a> {
@@ -27,15 +28,15 @@ impl<'a> ExactQuery<'a> {
     }
 
     /// All polygons.
-    pub fn tree(&self) -> &BoxTree {
-        self.tree.get_or_init(|| BoxTree::new(self.boxes(0..self.mesh.triangles.len() as u32)))
+    pub fn tree(&self) -> &Tree {
+        self.tree.get_or_init(|| Tree::on_one_thread(&self.boxes(0..self.mesh.triangles.len() as u32)))
     }
 
     /// Makes the tree of all polygons on all threads, before these ask for it.
     pub fn prepare(&self) {
         if self.tree.get().is_none() {
             // If another thread was faster, its tree is the same.
-            let _ = self.tree.set(BoxTree::by_all_threads(self.boxes(0..self.mesh.triangles.len() as u32)));
+            let _ = self.tree.set(Tree::new(&self.boxes(0..self.mesh.triangles.len() as u32)));
         }
     }
 
@@ -58,7 +59,7 @@ impl<'a> ExactQuery<'a> {
     }
 
     /// Calls `visit` with the polygons of a tree that may lie in front of a box.
-    pub fn in_front(&self, tree: &BoxTree, mut reach: Aabb, mut visit: impl FnMut(usize)) {
+    pub fn in_front(&self, tree: &Tree, mut reach: Aabb, mut visit: impl FnMut(usize)) {
         reach.low[2] = i32::MIN;
         tree.query(&reach, |t| visit(t as usize));
     }
@@ -75,6 +76,10 @@ impl<'a> ExactQuery<'a> {
         let (mut start, mut end) = (Count::default(), Count::default());
         let mut events: Vec<Event<A::Parameter>> = Vec::new();
         for (t, (a, b)) in polygons {
+            let (p, q, r) = mesh.corners(t);
+            if is_beside::<A>(a, b, [p, q, r]) {
+                continue;
+            }
             let Some(cover) = mesh.cover::<A>(t) else { continue };
             let delta = mesh.delta(group, mesh.triangle_group[t]);
             let (plain, moved) = cover.hides_end(a, b, delta);

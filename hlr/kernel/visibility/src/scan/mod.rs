@@ -25,7 +25,6 @@
 pub mod active_edges;
 pub mod active_spans;
 pub mod bands;
-pub mod box_tree;
 pub mod depth_pyramid;
 pub mod drawn;
 pub mod edge_table;

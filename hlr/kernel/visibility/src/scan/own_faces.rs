@@ -21,13 +21,13 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::box_tree::Aabb;
 use super::exact_query::ExactQuery;
 use super::invisibility::{Piece, Segment, State};
 use super::merged::merged;
 use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
 use super::sheets::Sheets;
+use crate::boxes::aabb::Aabb;
 use hlr_exact::Point;
 use hlr_exact::arithmetic::Arithmetic;
 
@@ -262,23 +262,16 @@ impl OwnFaces<'_> {
         stretches: Range<usize>,
     ) -> Option<Vec<Segment>> {
         let culled = self.culled(mesh, table, self.edge[stretches.start] as usize);
-        let (mut one, mut two) = (Vec::new(), Vec::new());
         let mut out: Vec<Segment> = Vec::new();
         for s in stretches {
-            if self.hidden(s, culled) {
-                one.clear();
-                one.push(Segment { start: 0.0, end: 1.0, state: State::Hidden });
-            } else if !self.asked::<A>(mesh, exact, s, true, &mut one) {
-                return None;
-            } else if !self.dented[s] {
-                if !self.asked::<A>(mesh, exact, s, false, &mut two) {
-                    return None;
-                }
-                one = merged(&one, &two, State::more_hidden);
-            }
+            let found = if self.hidden(s, culled) {
+                vec![Segment { start: 0.0, end: 1.0, state: State::Hidden }]
+            } else {
+                self.asked::<A>(mesh, exact, s)?
+            };
             let [from, to] = self.range[s];
             let at = |t: f64| if t == 1.0 { to } else { from + (to - from) * t };
-            for segment in &one {
+            for segment in &found {
                 let (start, end) = (at(segment.start), at(segment.end));
                 match out.last_mut() {
                     Some(last) if last.state == segment.state => last.end = end,
@@ -308,30 +301,40 @@ impl OwnFaces<'_> {
             // `off` finds a position for polygons of these sheets alone.
             if (self.faces(stretch).start..k).all(|before| sheet(before) != sheet(k)) {
                 exact.in_front(sheets.tree(exact, sheet(k)), reach, |t| {
-                    found.extend(self.off(mesh, stretch, t, self.dented[stretch]).map(|ends| (t, ends)));
+                    let off = self.off(mesh, stretch, t);
+                    found.extend(off.filter(|_| self.moved(mesh, stretch, t)).map(|ends| (t, ends)));
                 });
             }
         }
         found
     }
 
-    /// Segments of a stretch, from all polygons. Own ones seen edge-on are compared with it moved off their faces; if
-    /// `whole`, all own ones are. Behind its own face, an edge may pass from polygons seen at a large angle to polygons
-    /// seen edge-on: one of the two ways may have a gap there, the other has none.
-    fn asked<A: Arithmetic>(
-        &self,
-        mesh: &Mesh,
-        exact: &ExactQuery,
-        stretch: usize,
-        whole: bool,
-        out: &mut Vec<Segment>,
-    ) -> bool {
-        let mut found = Vec::new();
-        exact.in_front(exact.tree(), self.reach(mesh, stretch), |t| {
-            let off = self.off(mesh, stretch, t, whole || self.dented[stretch]);
-            found.extend(off.or_else(|| self.plain(mesh, stretch, t)).map(|ends| (t, ends)));
+    /// Segments of a stretch, from all polygons; None where these contradict one another. It is asked twice: moved off
+    /// its faces for all their polygons, and for those alone that are seen edge-on. Behind its own face, an edge may pass
+    /// from polygons seen at a large angle to polygons seen edge-on: one of the two ways may have a gap there, the other
+    /// has none.
+    fn asked<A: Arithmetic>(&self, mesh: &Mesh, exact: &ExactQuery, stretch: usize) -> Option<Vec<Segment>> {
+        let group = mesh.edge_group[self.edge[stretch] as usize];
+        // Of each polygon the ends of the stretch, and whether they differ between the two ways.
+        let mut found: Vec<(usize, Ends, bool)> = Vec::new();
+        exact.in_front(exact.tree(), self.reach(mesh, stretch), |t| match self.off(mesh, stretch, t) {
+            Some(ends) => found.push((t, ends, !self.moved(mesh, stretch, t))),
+            None => found.extend(self.plain(mesh, stretch, t).map(|ends| (t, ends, false))),
         });
-        exact.decide_by::<A>(mesh.edge_group[self.edge[stretch] as usize], found, out)
+        let mut one = Vec::new();
+        if !exact.decide_by::<A>(group, found.iter().map(|&(t, ends, _)| (t, ends)), &mut one) {
+            return None;
+        }
+        if found.iter().all(|&(.., differs)| !differs) {
+            return Some(one);
+        }
+        let mut two = Vec::new();
+        let second = found.iter().filter_map(|&(t, ends, differs)| {
+            let ends = if differs { self.plain(mesh, stretch, t)? } else { ends };
+            Some((t, ends))
+        });
+        let decided = exact.decide_by::<A>(group, second, &mut two);
+        decided.then(|| merged(&one, &two, State::more_hidden))
     }
 
     /// A box around all positions of a stretch.
@@ -350,9 +353,8 @@ impl OwnFaces<'_> {
         (!beside).then(|| mesh.ends(self.line[stretch] as usize))
     }
 
-    /// The ends of a stretch moved off the face of a polygon; None for polygons of other faces, and for those seen at a
-    /// large angle unless `whole`.
-    fn off<'m>(&self, mesh: &'m Mesh, stretch: usize, t: usize, whole: bool) -> Option<Ends<'m>> {
+    /// The ends of a stretch moved off the face of a polygon; None for polygons of other faces.
+    fn off<'m>(&self, mesh: &'m Mesh, stretch: usize, t: usize) -> Option<Ends<'m>> {
         let face = self.triangle_face[t];
         let sheet = self.sheet[face as usize];
         let bounded = |face: i32| {
@@ -360,8 +362,12 @@ impl OwnFaces<'_> {
         };
         let mine = self.faces(stretch).find(|&k| self.face[k] == face);
         let goes_on = || self.faces(stretch).find(|&k| self.sheet[self.face[k] as usize] == sheet && !bounded(face));
-        let k = mine.or_else(goes_on)?;
-        (whole || self.edge_on(mesh, t)).then(|| mesh.ends(self.off[k] as usize))
+        mine.or_else(goes_on).map(|k| mesh.ends(self.off[k] as usize))
+    }
+
+    /// Whether a stretch has to be moved off the face of this polygon of its own.
+    fn moved(&self, mesh: &Mesh, stretch: usize, t: usize) -> bool {
+        self.dented[stretch] || self.edge_on(mesh, t)
     }
 
     fn edge_on(&self, mesh: &Mesh, t: usize) -> bool {

@@ -14,13 +14,14 @@ use std::cmp::Ordering;
 
 use rayon::prelude::*;
 
-use super::box_tree::{Aabb, BoxTree};
 use super::invisibility::Event;
 use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
+use crate::boxes::aabb::{Aabb, Item};
+use crate::boxes::tree::Tree;
 use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
-use hlr_exact::predicates::{Cover, shifted_side};
+use hlr_exact::predicates::{Cover, is_beside, shifted_side};
 
 /// With more other groups than this around one, their boxes are not tested separately.
 const MANY_AROUND: usize = 32;
@@ -58,8 +59,9 @@ pub fn piercings<A: Arithmetic>(
     for (reach, t) in reached(mesh, table, &boxes, &sought, largest) {
         members[mesh.triangle_group[t as usize] as usize].push((reach, t));
     }
-    let trees: Vec<BoxTree> = members.into_par_iter().map(BoxTree::by_all_threads).collect();
-    let groups = BoxTree::new((0..mesh.groups.len()).filter(|&p| sought[p]).map(|p| (boxes[p], p as u32)).collect());
+    let trees: Vec<Tree> = members.par_iter().map(|items| Tree::new(items)).collect();
+    let live: Vec<Item> = (0..mesh.groups.len()).filter(|&p| sought[p]).map(|p| (boxes[p], p as u32)).collect();
+    let groups = Tree::new(&live);
     let found: Vec<(Vec<Event<A::Parameter>>, u64)> = drawn
         .par_chunks(256)
         .enumerate()
@@ -84,6 +86,10 @@ pub fn piercings<A: Arithmetic>(
                     let reach = Aabb::of(&[a, b]).toward_viewer(delta);
                     trees[other as usize].query(&reach, |t| {
                         tests += 1;
+                        let (p, q, r) = mesh.corners(t as usize);
+                        if is_beside::<A>(a, b, [p, q, r]) {
+                            return;
+                        }
                         let Some(cover) = mesh.cover::<A>(t as usize) else { return };
                         pierce(a, b, &cover, delta, |at, plain, moved| {
                             events.push(Event { drawn: (chunk * 256 + i) as u32, at, plain, moved });
@@ -164,7 +170,8 @@ fn through<A: Arithmetic>(
 /// Polygons that edges of other groups may reach, with their boxes; and all polygons of groups that are not sound.
 fn reached(mesh: &Mesh, table: &PolygonTable, boxes: &[Aabb], sought: &[bool], largest: i64) -> Vec<(Aabb, u32)> {
     let live = || (0..boxes.len()).filter(|&p| sought[p]);
-    let tree = BoxTree::new(live().map(|p| (boxes[p].toward_viewer(largest), p as u32)).collect());
+    let items: Vec<Item> = live().map(|p| (boxes[p].toward_viewer(largest), p as u32)).collect();
+    let tree = Tree::new(&items);
     // None: so many groups lie around it that all its polygons are taken.
     let mut near: Vec<Option<Vec<Aabb>>> = vec![None; boxes.len()];
     for p in live().filter(|&p| mesh.groups[p].sound) {
@@ -208,7 +215,8 @@ fn group_boxes(mesh: &Mesh, table: &PolygonTable) -> Vec<Aabb> {
 fn sought_groups(mesh: &Mesh, boxes: &[Aabb]) -> Vec<bool> {
     let live: Vec<usize> = (0..boxes.len()).filter(|&p| boxes[p] != Aabb::EMPTY).collect();
     let largest = live.iter().map(|&p| mesh.groups[p].delta).max().unwrap_or(0);
-    let tree = BoxTree::new(live.iter().map(|&p| (boxes[p].toward_viewer(largest), p as u32)).collect());
+    let items: Vec<Item> = live.iter().map(|&p| (boxes[p].toward_viewer(largest), p as u32)).collect();
+    let tree = Tree::new(&items);
     let mut sought = vec![false; boxes.len()];
     for p in live {
         let mut meets = !mesh.groups[p].sound;

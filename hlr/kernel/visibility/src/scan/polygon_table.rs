@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::box_tree::Aabb;
 use super::mesh::Mesh;
+use crate::boxes::aabb::Aabb;
 use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
 use hlr_exact::predicates::orient2d;

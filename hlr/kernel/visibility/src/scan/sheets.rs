@@ -2,14 +2,14 @@
 
 use std::sync::OnceLock;
 
-use super::box_tree::BoxTree;
 use super::exact_query::ExactQuery;
+use crate::boxes::tree::Tree;
 
 /// The triangles of each sheet: members[offsets[s]..offsets[s + 1]]; and their boxes, once they are asked for.
 pub struct Sheets {
     offsets: Vec<u32>,
     members: Vec<u32>,
-    trees: Vec<OnceLock<BoxTree>>,
+    trees: Vec<OnceLock<Tree>>,
 }
 
 impl Sheets {
@@ -34,11 +34,11 @@ impl Sheets {
     }
 
     /// The triangles of a sheet that are counted.
-    pub fn tree(&self, exact: &ExactQuery, sheet: i32) -> &BoxTree {
+    pub fn tree(&self, exact: &ExactQuery, sheet: i32) -> &Tree {
         let s = sheet as usize;
         self.trees[s].get_or_init(|| {
             let members = &self.members[self.offsets[s] as usize..self.offsets[s + 1] as usize];
-            BoxTree::new(exact.boxes(members.iter().copied()))
+            Tree::on_one_thread(&exact.boxes(members.iter().copied()))
         })
     }
 }

@@ -15,11 +15,11 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::box_tree::BoxTree;
 use super::exact_query::ExactQuery;
 use super::invisibility::{Piece, State};
 use super::mesh::Mesh;
 use super::own_faces::OwnFaces;
+use crate::boxes::tree::Tree;
 
 /// The outlines, each as its stretches, that are hidden in part and lie at polygons of other groups. near: per group,
 /// whether others come near it; pieces ascend by edge.
@@ -48,7 +48,7 @@ pub fn touching(
         return Vec::new();
     }
     let around = (0..mesh.triangles.len() as u32).filter(|&t| is_near(mesh.triangle_group[t as usize]));
-    let tree = BoxTree::by_all_threads(exact.boxes(around));
+    let tree = Tree::new(&exact.boxes(around));
     let touches = |run: &Range<usize>| {
         let group = mesh.edge_group[own.edge[run.start] as usize];
         run.clone().any(|stretch| {
