@@ -34,6 +34,7 @@ NoteCode = Literal[
     "over-time",
     "script-shape",
     "stray-parts",
+    "style-unused",
     "glass-hides",
     "depth-coarse",
     "cut-short",
@@ -71,6 +72,7 @@ CODES: dict[NoteCode, str] = {
     "over-time": "reading and the coarsest drawing took longer than the time that was given",
     "script-shape": "which of its shapes a script has shown, or is taken to have meant",
     "stray-parts": "a few parts far from the rest make the drawing several times as large",
+    "style-unused": "a style has a rule for parts that the model does not have",
     "glass-hides": "transparent parts hide what is behind them: `see_through` was not asked for",
     "depth-coarse": "depths of a preview tie that lie a pixel apart or more: the model is very deep",
     "cut-short": "the file ends too early: some of the model may be missing",
@@ -98,6 +100,7 @@ REMARKS: frozenset[NoteCode] = frozenset(
         "section-not-hatched",
         "section-not-marked",
         "stray-parts",
+        "style-unused",
         "thin-lines",
     }
 )
