@@ -40,7 +40,7 @@ def part_reports(
     faces = (tables.face_start[1:] - tables.face_start[:-1]).tolist()
     own = drawn or [0] * len(brep)
     is_open = any(report[0] for report in found.reports)
-    bordering = _border_edges(found, offsets, len(brep)) if is_open else []
+    bordering = _border_edges(found, offsets, len(brep)) if is_open and any(brep) else [0] * len(brep)
     named = sheets() if is_open else ()
     out = []
     for i, (label, counts) in enumerate(zip(whole.labels, found.reports, strict=True)):
