@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from hlr.errors import OptionError
 from hlr.tables.sheets import papers
 
 from .drawn_files import targets_of, write
@@ -46,6 +47,9 @@ def draw_document_pages(
 
     Raises OptionError where other options contradict the page; else as `hlr.draw_pages`.
     """
+    if page is None and Path(source).suffix.lower() != ".fcstd":
+        name = Path(source).name
+        raise OptionError(f"only FreeCAD documents (.FCStd) have pages, and {name} is none: leave --all-pages out")
     # What cannot be a name of files is refused before the document is read for the names of all its pages.
     targets = targets_of(outputs, source, ["page" if page is None else page], format, told["as_json"])
     start(source, told["time_limit"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from typing import Any
 
 import click
@@ -12,7 +13,10 @@ class Verb(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Parse as click does. Raises UsageError where an option with a value is given twice, or a name too many."""
-        _, more, order = self.make_parser(ctx).parse_args(list(args))
+        try:
+            _, more, order = self.make_parser(ctx).parse_args(list(args))
+        except click.NoSuchOption as error:
+            raise click.NoSuchOption(error.option_name, None, self._near(error.option_name), ctx) from None
         taken = [each.human_readable_name for each in self.params if isinstance(each, click.Argument)]
         if more and taken:
             cure = "; hlr batch draws many" if self.name == "draw" else ""
@@ -27,6 +31,11 @@ class Verb(click.Command):
                 raise click.UsageError(f"{max(option.opts, key=len)} is given twice; give it once", ctx)
             once.add(option)
         return super().parse_args(ctx, args)
+
+    def _near(self, option: str) -> list[str]:
+        """Options that are spelled nearly so. Their dashes, which all have, make none alike."""
+        known = {name.lstrip("-"): name for param in self.params for name in (*param.opts, *param.secondary_opts)}
+        return sorted(known[near] for near in get_close_matches(option.lstrip("-"), known))
 
     def invoke(self, ctx: click.Context) -> Any:
         """Carry out the command, and then say which options had no effect. Raises OptionError for those of no use."""

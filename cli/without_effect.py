@@ -188,12 +188,13 @@ _DRAWS = (
     "address",
     "baseline",
     "fail_on_change",
+    "prune",
     "strict",
     "time_limit",
     "total_time_limit",
     "no_cache",
 )
-_RUNS = ("jobs", "total_time_limit", "address", "baseline", "fail_on_change")
+_RUNS = ("jobs", "total_time_limit", "address", "baseline", "fail_on_change", "prune")
 
 ROWS: tuple[Row, ...] = (
     *(Row((name,), partial(_for_sources, of)) for name, of in OF_SOURCES.items()),

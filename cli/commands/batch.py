@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hlr.errors import OptionError, WriteError
+from hlr.errors import OptionError, WriteError, counted
 from hlr.tables.projection_methods import PROJECTION_METHODS
 from hlr.tables.writers import WRITERS
 
@@ -91,6 +91,7 @@ CHANGED = 3
 @click.option("--init", is_flag=True, help="Write a manifest hlr.toml for the models here, to be changed at will.")
 @click.option("--list", "only_list", is_flag=True, help="Print the files that would be written, and draw nothing.")
 @click.option("--dry-run", is_flag=True, help="Print which sources would be drawn, and which are unchanged.")
+@click.option("--prune", is_flag=True, help="Remove drawings of earlier runs whose sources are gone.")
 @click.option("--watch", is_flag=True, help="Stay, and draw again what changes on disk. Ctrl-C ends it.")
 @NO_CACHE
 @click.option("-q", "--quiet", is_flag=True, help="Print failures only, and with --fail-on-change a change.")
@@ -119,7 +120,8 @@ def batch(
     """
     if init:
         return _init(sources)
-    watch, baseline, fail_on_change = (others.pop(name) for name in ("watch", "baseline", "fail_on_change"))
+    names = ("watch", "baseline", "fail_on_change", "prune")
+    watch, baseline, fail_on_change, prune = (others.pop(name) for name in names)
     if sum((watch, only_list, dry_run)) > 1:
         raise OptionError("--watch, --list and --dry-run contradict one another: give one of them")
     asked = _Asked(sources, **others)
@@ -136,7 +138,7 @@ def batch(
         for job in plan.jobs:
             show(f"{'unchanged' if kept.find(job) else 'to draw  '}  {job.title}")
         return 0
-    earlier = _Earlier(plan, baseline, fail_on_change)
+    earlier = _Earlier(plan, baseline, fail_on_change, prune)
     _make_folder(plan.output)
     with ExitStack() as stack:
         # Beside the drawings there is a display to take down, and workers to end.
@@ -246,12 +248,15 @@ class _Pool:
 
 
 class _Earlier:
-    """The drawings that `--baseline` names, if any. fails: whether a difference is a failure."""
+    """Earlier drawings: those that `--baseline` names, if any, and stale ones.
 
-    def __init__(self, plan: Plan, name: str | None, fails: bool) -> None:
+    fails: whether a difference is a failure; prunes: whether stale drawings are removed
+    """
+
+    def __init__(self, plan: Plan, name: str | None, fails: bool, prunes: bool) -> None:
         if fails and name is None:
             raise OptionError("--fail-on-change needs --baseline: name a folder, or git:REVISION")
-        self.name, self.fails = name, fails
+        self.name, self.fails, self.prunes = name, fails, prunes
         self._baseline: Baseline | None = None
         if name is not None:
             from hlr.batch.baseline import baseline_of
@@ -284,13 +289,16 @@ def _round(
     from hlr.batch.ci import github
     from hlr.batch.report import write
     from hlr.batch.run import run, tidy
+    from hlr.batch.stale import remove, stale, told
 
     started = time.monotonic()
     done = run(plan, kept, pool, display)
     tidy(plan.output)
     changed = earlier.changes(done)
+    old = stale(plan)
+    left = remove(old, plan.output) if earlier.prunes else old
     try:
-        report = write(done, digests, os.environ, changed)
+        report = write(done, digests, os.environ, changed, left)
     except WriteError as error:
         why = str(error).rstrip(".")
         raise WriteError(f"{why}; what is drawn stays, but there is no new report ({_counts(done)})") from None
@@ -300,6 +308,10 @@ def _round(
     if not display.quiet:
         if kept.not_kept:
             remark(f"the next run draws again what it should find in the cache: it cannot be kept ({kept.not_kept})")
+        if len(left) < len(old):
+            remark(f"{counted(len(old) - len(left), 'stale drawing')} removed")
+        if left:
+            remark(told(left, plan.output))
         say(_said(done, time.monotonic() - started))
     fails = earlier.fails and changed is not None and changed.any
     if changed is not None and (fails or not display.quiet):

@@ -49,7 +49,7 @@ _MOST_ROWS = 20
     type=click.Choice(["auto", "off", "translation", "similarity"]),
     default="auto",
     help="translation: B is first moved to where most of its lines match those of A; similarity: turned by quarters, "
-    "mirrored and scaled as well. Default: off for two drawings of hlr, else similarity.",
+    "mirrored and scaled as well; auto: off for two drawings of hlr, else similarity. Default: auto.",
 )
 @click.option(
     "--page",
@@ -75,15 +75,15 @@ _MOST_ROWS = 20
     "--against",
     type=click.Choice(["freecad"]),
     help="Compare hlr's drawing of the model A with that of an installed FreeCAD, which is run without its window "
-    "and has 120 s, unless --time-limit says else. --view is iso then, if none is given.",
+    "and has 120 s, unless --time-limit says otherwise. --view is iso then, if none is given.",
 )
 @click.option("--coarse", is_flag=True, help="With --against: FreeCAD's coarse view, which is faster.")
 @click.option(
     "--fail-on",
     type=click.Choice(["any", "ours", "never"]),
     default="any",
-    help="What makes the exit code 1: any difference; only those in which hlr's own drawing of the model is wrong, "
-    "or of which none was judged; nothing. Default: any.",
+    help="What makes the exit code 1. any: a difference; ours: a difference in which hlr's drawing of the model is "
+    "wrong, or for which that could not be told; never: nothing. Default: any.",
 )
 @TIME_LIMIT
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing; the exit code tells.")
@@ -108,7 +108,8 @@ def compare(  # noqa: PLR0913 - one for each option of the command
 
     Each is an SVG, PDF, DXF or JSON file of hlr, or an SVG, PDF or DXF file of FreeCAD and other programs.
 
-    Or it is a model, which is drawn as the other side shows it. Pages are compared view by view.
+    Or it is a model, which is drawn as the other side shows it; of two models both are drawn. Pages are compared view
+    by view. Places are told in mm on the paper of A.
 
     \b
       hlr compare old.svg new.svg
@@ -136,7 +137,7 @@ def compare(  # noqa: PLR0913 - one for each option of the command
     models = [side for side in sides if is_model(side)]
     if fail_on == "ours" and len(models) != 1:
         raise OptionError(
-            "--fail-on ours asks rays on a model which drawing is right: name one model, and a drawing of it"
+            "--fail-on ours finds out by a model which drawing is right: name one model, and a drawing of it"
         )
     if models or time_limit is not None:
         # Without a worker, FreeCAD's own process can be ended all the same.

@@ -39,7 +39,9 @@ def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
             "StrictError", f"{job.source}: {why}; nothing is written, because warnings are errors (strict)."
         )
     except HlrError as error:
-        outcome = failed(type(error).__name__, str(error))
+        # A file that is not there, or cannot be read, is named by its path: the report says it from the batch's folder.
+        text, path = str(error), str(Path(job.root, job.source))
+        outcome = failed(type(error).__name__, job.source + text.removeprefix(path) if text.startswith(path) else text)
     except MemoryError:
         outcome = failed("MemoryError", f"{job.source}: out of memory; a larger accuracy needs less.")
     except Exception as error:

@@ -33,6 +33,11 @@ def document(found: dict[str, Any]) -> bytes:
     parts = [
         f"# Drawings\n\n{head}\n",
         _changed(found),
+        _table(
+            "Stale",
+            ("drawing", "its source, which is gone"),
+            [(s["file"], s["source"]) for s in found.get("stale", ())],
+        ),
         _table("Failed", ("source", "why"), failed),
         _table("Warnings", ("source", "warning"), warned),
         _table(

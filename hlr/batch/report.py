@@ -8,7 +8,7 @@ stand under "cost" and "seconds": nothing else differs from run to run.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,7 @@ from hlr.batch.job import Job, Outcome
 from hlr.batch.keys import Digests
 from hlr.batch.page import write as page
 from hlr.batch.run import Done
+from hlr.batch.stale import Stale, folder_of
 from hlr.drawing import files
 from hlr.tables.documents import head
 
@@ -26,8 +27,11 @@ if TYPE_CHECKING:
 Document = dict[str, Any]
 
 
-def document(done: Done, digests: Digests, changes: Changes | None = None) -> Document:
-    """The report as `manifest.json` has it. changes: since the baseline; None: there is none."""
+def document(done: Done, digests: Digests, changes: Changes | None = None, stale: Sequence[Stale] = ()) -> Document:
+    """The report as `manifest.json` has it.
+
+    changes: since the baseline; None: there is none. stale: drawings of earlier runs that are still there.
+    """
     from importlib.metadata import version
 
     sources = [_source(job, outcome, digests) for job, outcome in zip(done.plan.jobs, done.outcomes, strict=True)]
@@ -40,6 +44,8 @@ def document(done: Done, digests: Digests, changes: Changes | None = None) -> Do
             "failed": sum(source["state"] == "failed" for source in sources),
             "warned": sum(outcome.warned for outcome in done.outcomes),
         },
+        "folder": folder_of(done.plan),
+        "stale": list(stale),
         "sources": sources,
     }
     if changes is not None:
@@ -51,13 +57,19 @@ def document(done: Done, digests: Digests, changes: Changes | None = None) -> Do
     return found
 
 
-def write(done: Done, digests: Digests, environment: Mapping[str, str], changes: Changes | None = None) -> Document:
+def write(
+    done: Done,
+    digests: Digests,
+    environment: Mapping[str, str],
+    changes: Changes | None = None,
+    stale: Sequence[Stale] = (),
+) -> Document:
     """Write the files of the report that have changed. Returns the document.
 
-    environment: variables by which a CI service is told. changes: since the baseline, where there is one. Raises
-    WriteError where a file cannot be written.
+    environment: variables by which a CI service is told. changes, stale: as of `document`. Raises WriteError where a
+    file cannot be written.
     """
-    found = document(done, digests, changes)
+    found = document(done, digests, changes, stale)
     contents = {}
     for name, writer in _WRITERS.items():
         content = writer(found, environment)

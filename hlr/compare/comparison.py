@@ -18,6 +18,7 @@ from hlr.drawing.files import path_of, write_all
 from hlr.drawing.scale import ratio
 from hlr.errors import OptionError
 from hlr.tables.documents import head
+from hlr.tables.entry import listed
 
 if TYPE_CHECKING:
     from hlr.compare.overlay.picture import Overlay
@@ -265,5 +266,5 @@ def ending_of(path: Path) -> str:
     """The ending of a file for a comparison, a key of `WRITERS`. Raises OptionError for another."""
     ending = path.suffix.lower()
     if ending not in WRITERS:
-        raise OptionError(f"a comparison cannot be written to {path}: its name has to end in {' or '.join(WRITERS)}")
+        raise OptionError(f"a comparison cannot be written to {path}: its name has to end in {listed(WRITERS, 'or')}")
     return ending

@@ -21,6 +21,7 @@ from hlr.image.paper import misfit
 from hlr.image.placement import Placement
 from hlr.linework.legible import legible
 from hlr.linework.lines import Linework
+from hlr.pipeline.style_notes import unused_rules
 from hlr.request.effect import Decisions, Planner
 from hlr.request.options import Options, Request
 from hlr.request.style_file import style_of
@@ -93,6 +94,8 @@ def finished(
     if not plan.crossings and counters["seeds"]:
         for name in ("crossing search", "piercing search"):
             planner.revised(name, True, "one convex body, but rounded its faces overlap in the image")
+    # With some parts chosen, a rule may be for the others.
+    unused = () if options.only or options.hide else unused_rules(style, [part.name for part in image.parts])
     seconds = segments.found.seconds
     for name, steps in STEPS.items():
         planner.spent(name, sum(seconds[s] for s in steps))
@@ -114,7 +117,9 @@ def finished(
         parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in image.parts),
         lines=lines,
         notes=tuple(
-            dict.fromkeys((*source.notes, *scene.notes, *placement.notes, *misfit, *shown.notes, *empty, *remarks))
+            dict.fromkeys(
+                (*source.notes, *scene.notes, *placement.notes, *misfit, *shown.notes, *empty, *unused, *remarks)
+            )
         ),
         counters={**counters, **rescued, "clipping_planes": cuts},
         timings=clock,

@@ -13,5 +13,10 @@ def matches(name: str, pattern: str) -> bool:
     """
     name, pattern = name.lower(), pattern.lower()
     steps = name.split("/")
-    candidates = [name, re.sub(r"(:loose)?(:\d+)?$", "", name), *("/".join(steps[:i]) for i in range(1, len(steps)))]
+    candidates = [name, without_number(name), *("/".join(steps[:i]) for i in range(1, len(steps)))]
     return any(candidate == pattern or fnmatchcase(candidate, pattern) for candidate in candidates)
+
+
+def without_number(name: str) -> str:
+    """The name that equal parts share: bolt for bolt:2."""
+    return re.sub(r"(:loose)?(:\d+)?$", "", name)

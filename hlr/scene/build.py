@@ -67,7 +67,9 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         met = no_clashes(len(groups.closed))
     plan.spent("intersection search", perf_counter() - begin, clash_tests=met.tests)
     true, intersections = _true_surfaces(whole, found), None
-    parts = part_reports(whole, doubled, found.reports, drawn, self_intersecting_parts(met, group_part))
+    parts = part_reports(
+        whole, doubled, found, mesh.offsets, drawn, self_intersecting_parts(met, group_part), meshed.sheets
+    )
     groups = mark_unsound(groups, met.through | found.welded)
 
     if len(found.loose):

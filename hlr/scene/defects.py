@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection
+
+import numpy as np
+
+from hlr._kernel import MeshScene
 from hlr.common.types import Ints
 from hlr.drawing.notes import Note
 from hlr.scene.scene import ScenePart
 from hlr.source.part_meshes import PartMeshes
+
+FLAT = 1e-7
+"""What lies off a plane by no more than this share of its size lies in it."""
 
 MAX_NOTES = 5
 """Defective parts with a note of their own; one more note has the number of all others."""
@@ -14,30 +22,39 @@ MAX_NOTES = 5
 def part_reports(
     whole: PartMeshes,
     doubled: list[int],
-    counts: list[list[int]],
+    found: MeshScene,
+    offsets: Ints,
     drawn: list[int] | None,
     crossed: Ints,
+    sheets: Callable[[], Collection[str]],
 ) -> tuple[ScenePart, ...]:
     """One report per part: identity, counts and defects.
 
-    counts: what `_kernel.MeshScene.reports` tells; doubled: triangles already left out as duplicates; drawn: edges of
-    parts without B-rep, None where there are none; crossed: numbers of parts whose surfaces pass through one another.
+    doubled: triangles already left out as duplicates; offsets: of the triangles at each mesh edge; drawn: edges of
+    parts without B-rep, None where there are none; crossed: numbers of parts whose surfaces pass through one another;
+    sheets: the names of parts that are faces outside all solids.
     """
     through = set(crossed.tolist())
     tables = whole.tables
     brep = tables.brep.tolist()
     faces = (tables.face_start[1:] - tables.face_start[:-1]).tolist()
     own = drawn or [0] * len(brep)
+    is_open = any(report[0] for report in found.reports)
+    bordering = _border_edges(found, offsets, len(brep)) if is_open and any(brep) else [0] * len(brep)
+    named = sheets() if is_open else ()
     out = []
-    for i, (label, found) in enumerate(zip(whole.labels, counts, strict=True)):
-        border, crowded, turned, flat, unclosed, outside_in, triangles, edges = found
+    for i, (label, counts) in enumerate(zip(whole.labels, found.reports, strict=True)):
+        border, crowded, turned, flat, unclosed, outside_in, triangles, edges = counts
+        sheet, open_edges = label.name in named, 0
         defects = []
         if doubled[i]:
             defects.append(_count(doubled[i], "duplicated triangle"))
         if flat and not brep[i]:  # in a B-rep they are due to the tessellation, not to the model
             defects.append(_count(flat, "triangle") + " without area")
-        if border:
-            defects.append("open: " + _count(border, "border edge"))
+        if border and not (sheet and _is_flat(whole, i)):
+            shown = bordering[i] or border
+            open_edges = shown if sheet else 0
+            defects.append("open: " + _count(shown, "border edge"))
         if crowded:
             defects.append(_count(crowded, "non-manifold edge"))
         if turned:
@@ -58,20 +75,59 @@ def part_reports(
                 closed=triangles > 0 and not border and not unclosed,
                 oriented=turned == 0,
                 defects=tuple(defects),
+                open_edges=open_edges,
             )
         )
     return tuple(out)
 
 
 def defect_notes(parts: tuple[ScenePart, ...]) -> list[Note]:
-    """One note per defective part, MAX_NOTES at most, and one for all others."""
-    bad = [p for p in parts if p.defects]
+    """One note per defective part, MAX_NOTES at most, and one for all others; then as many for sheets that are open."""
+    bad = [p for p in parts if p.defects and not _is_open_sheet(p)]
     out = [Note("defects", f'Part "{p.name}" is drawn as it is: {"; ".join(p.defects)}.') for p in bad[:MAX_NOTES]]
     if len(bad) > MAX_NOTES:
         more = len(bad) - MAX_NOTES
         text = f"{more} more part{' has' if more == 1 else 's have'} defects: see hlr info."
         out.append(Note("more-defects", text))
-    return out
+    return out + _sheet_notes([p for p in parts if _is_open_sheet(p)])
+
+
+def _is_open_sheet(part: ScenePart) -> bool:
+    """It is open, as it may be, and nothing else is wrong with it."""
+    return part.open_edges > 0 and len(part.defects) == 1
+
+
+def _sheet_notes(sheets: list[ScenePart]) -> list[Note]:
+    texts = [
+        f'Part "{p.name}" holds faces and no solid: it is open, at {_count(p.open_edges, "edge")}.'
+        for p in sheets[:MAX_NOTES]
+    ]
+    if len(sheets) > MAX_NOTES:
+        more = len(sheets) - MAX_NOTES
+        are = "more part of faces and no solid is" if more == 1 else "more parts of faces and no solid are"
+        texts.append(f"{more} {are} open: see hlr info.")
+    return [Note("open-surfaces", text) for text in texts]
+
+
+def _border_edges(found: MeshScene, offsets: Ints, parts: int) -> list[int]:
+    """How many edges of each part's B-rep bound one face only."""
+    walk = np.repeat(np.arange(len(found.walk_part)), np.diff(found.walk_offsets))
+    sides = np.append(np.diff(offsets), np.zeros(len(found.loose), np.int32))
+    ends = walk[sides[found.walk_edges] == 1]
+    edges = np.unique(found.walk_part[ends].astype(np.int64) << 32 | found.walk_index[ends])
+    shown: list[int] = np.bincount(edges >> 32, minlength=parts).tolist()
+    return shown
+
+
+def _is_flat(whole: PartMeshes, part: int) -> bool:
+    """All faces of a part lie in one plane: a sketch."""
+    tables = whole.tables
+    if not tables.face_planar[slice(*tables.face_start[part : part + 2].tolist())].all():
+        return False
+    points = tables.points[slice(*tables.point_start[part : part + 2].tolist())]
+    points = points - points.mean(axis=0)
+    normal = np.linalg.svd(points, full_matrices=False)[2][2]
+    return bool(abs(points @ normal).max() <= FLAT * abs(points).max())
 
 
 def _count(number: int, what: str) -> str:

@@ -118,7 +118,10 @@ class IntersectionCurves:
 
 @dataclass(frozen=True, slots=True)
 class ScenePart:
-    """A part's identity and what was found out about it."""
+    """A part's identity and what was found out about it.
+
+    open_edges: of faces outside all solids, which may be open as surface models are: edges with one face only
+    """
 
     name: str
     color: Color | None
@@ -129,6 +132,7 @@ class ScenePart:
     closed: bool
     oriented: bool
     defects: tuple[str, ...]
+    open_edges: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from typing import Any, Protocol, runtime_checkable
 
 from hlr.errors import OptionError
 from hlr.request.options import Parameter
-from hlr.request.part_names import matches
+from hlr.request.part_names import matches, without_number
 from hlr.source import open_source
 from hlr.source.model import Source
 
@@ -84,12 +84,15 @@ def matching(patterns: Sequence[str], source: Source, option: str) -> set[str]:
         some = {name for name in names if any(matches(each, pattern) for each in (name, *above.get(name, ())))}
         if not some:
             known = list(dict.fromkeys((*names, *(each for assemblies in above.values() for each in assemblies))))
-            raise OptionError(f'{option} "{pattern}" matches no part: {_suggestion(pattern, known)}.')
+            raise OptionError(f'{option} "{pattern}" matches no part: {suggestion(pattern, known)}.')
         found |= some
     return found
 
 
-def _suggestion(pattern: str, names: Sequence[str]) -> str:
+def suggestion(pattern: str, names: Sequence[str]) -> str:
+    """The names that come nearest to a pattern, else the first ones that there are: the end of a sentence."""
+    if ":" not in pattern:
+        names = list(dict.fromkeys(map(without_number, names)))
     close = get_close_matches(pattern, names, 3, 0.5)
     if close:
         return "perhaps " + " or ".join(f'"{name}"' for name in close)

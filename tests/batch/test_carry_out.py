@@ -26,3 +26,11 @@ def test_the_variants_of_a_script_and_what_they_import(tmp_path):
     (tmp_path / "sizes.py").write_text("width = 200\n")
     (again,) = (carry_out(job) for job in plan(found, tmp_path / "out").jobs[:1])
     assert again.drawings[0]["height_mm"] == pytest.approx(200.0)
+
+
+def test_a_source_that_is_not_there_is_named_from_the_folder_of_the_batch(tmp_path):
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub/a.off").symlink_to("nowhere.off")
+    (job,) = plan(manifest_of({"files": "sub", "views": "top"}, tmp_path), tmp_path / "out").jobs
+    failure = carry_out(job).failure
+    assert failure and failure.message == "sub/a.off does not exist: check the name and the folder."

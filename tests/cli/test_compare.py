@@ -124,7 +124,7 @@ def test_who_is_right_is_asked_of_one_model(hlr_real):
     for sides in (("old.svg", "pair.svg"), ("old.glb", "pair.glb")):
         result = hlr_real("compare", *sides, "--fail-on", "ours")
         assert (result.code, result.out) == (2, "")
-        assert result.err.startswith("hlr: --fail-on ours asks rays on a model which drawing is right: name one model")
+        assert result.err.startswith("hlr: --fail-on ours finds out by a model which drawing is right: name one model")
 
 
 @pytest.mark.usefixtures("model")

@@ -53,7 +53,10 @@ def test_a_sheet_of_paper_is_still_one(hlr_real, tmp_path):
             "a page of a document is drawn as it is: leave out the option scale",
         ),
         ((HOUSING, "--all-pages", "--page", "A4"), "leave out the option page"),
-        ((STEP, "--all-pages"), "only FreeCAD documents (.FCStd) have pages"),
+        (
+            (STEP, "--all-pages"),
+            "only FreeCAD documents (.FCStd) have pages, and as1-oc-214.stp is none: leave --all-pages out",
+        ),
         ((STEP, "--page", "Blatt"), "no page is called 'Blatt'"),
     ],
 )

@@ -266,3 +266,18 @@ def test_every_message_is_a_sentence(hlr_command):
     ):
         err = hlr_command(*arguments).err
         assert err.endswith(".\n") and not err.endswith("..\n"), err
+
+
+@pytest.mark.parametrize(
+    ("option", "end"),
+    [
+        ("--nix", "no such option '--nix' (see hlr draw --help).\n"),
+        (
+            "--hiden",
+            "no such option '--hiden': did you mean '--hidden', '--hide' or '--no-hidden'? (see hlr draw --help).\n",
+        ),
+        ("--perspectve", "no such option '--perspectve': did you mean '--perspective'? (see hlr draw --help).\n"),
+    ],
+)
+def test_only_options_that_are_spelled_nearly_so_are_proposed(hlr_command, option, end):
+    assert hlr_command("draw", "part.step", option).err == f"hlr: {end}"

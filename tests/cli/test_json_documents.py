@@ -160,10 +160,13 @@ def of_batch(hlr_real, monkeypatch):
     Path("changed.off").write_text(TETRAHEDRON.format(10).replace("0 0 10", "0 0 6"))
     assert hlr_real(*asked, "--baseline", "../earlier").code == 1
     yield read("drawings/manifest.json")
+    Path("new.off").unlink()
+    assert hlr_real(*asked).code == 1
+    yield read("drawings/manifest.json")
 
 
-UNSEEN = [("batches", "sources[].sha256", "null")]
-"""What no command shows at will: a source that vanishes as soon as the batch has found it."""
+UNSEEN = [("batches", "folder", "null"), ("batches", "sources[].sha256", "null")]
+"""What no command shows at will: two drives, and a source that vanishes as soon as the batch has found it."""
 
 
 @pytest.mark.slow

@@ -66,7 +66,9 @@ def test_a_scale_that_is_said_is_kept(model, tmp_path):
 def test_a_scale_is_refused_where_both_drawings_say_theirs(model, tmp_path):
     drawn = hlr.draw(model, view="top").save(tmp_path / "a.svg")
     for given in ((drawn, drawn), (drawn, model), (model, model)):
-        with pytest.raises(OptionError, match="no side is a drawing that does not say its own"):
+        with pytest.raises(
+            OptionError, match="a scale is for a drawing of another program, which does not say its own"
+        ):
             compare(*given, scale=0.5)
     with pytest.raises(OptionError, match="give a positive number"):
         compare(drawn, drawn, scale=0.0)

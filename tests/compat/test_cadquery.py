@@ -144,7 +144,8 @@ def test_turned_ellipses():
 
 def test_a_face_seen_edge_on_has_a_picture():
     face = cq.Workplane().rect(10, 10).extrude(5).faces(">Z").val()
-    with pytest.warns(UserWarning, match="open: 4 border edges"):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
         facts(getSVG(face, {"projectionDir": (1, 0, 0)}))
 
 

@@ -23,7 +23,7 @@ def rows(found: Comparison, most: int) -> list[str]:
     columns = len(_HEADINGS) if any(row[-1] for row in cells) else len(_HEADINGS) - 1
     lines = _aligned([row[:columns] for row in (_HEADINGS, *cells)])
     more = len(shown) - most
-    return ["", *lines, *([f"and {more} more"] if more > 0 else []), ""]
+    return ["", *lines, *([f"and {more} more; -o FILE.json or FILE.html has all of them"] if more > 0 else []), ""]
 
 
 def view_rows(found: Comparison) -> list[str]:

@@ -42,8 +42,8 @@ class Choice:
         if all(drawn) and self.given:
             names, them = listed(self.given, "and"), "it" if len(self.given) == 1 else "them"
             raise OptionError(
-                f"{names} {'is' if them == 'it' else 'are'} for a model, and both sides are drawings already: leave "
-                f"{them} out, or name a model"
+                f"{names} {'is' if them == 'it' else 'are'} for a model, and both sides are drawings: leave {them} "
+                "out, or name a model in place of one"
             )
 
     def of(self, model: Any, beside: Any) -> Choice:

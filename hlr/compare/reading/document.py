@@ -39,7 +39,9 @@ def with_pages(
         return given
     documents = [_is_document(side) for side in given]
     if not any(documents):
-        raise OptionError(f'the page "{page}" is said, and no side is a FreeCAD document (.FCStd): leave the page out')
+        raise OptionError(
+            f'the page "{page}" is given, and no side is a FreeCAD document (.FCStd): leave it out, or name one'
+        )
     a, b = (
         page_of(side, page, tolerance_mm, choice, progress) if drawn else side
         for side, drawn in zip(given, documents, strict=True)

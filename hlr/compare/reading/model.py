@@ -61,7 +61,9 @@ def sides_of(
     drawn = is_drawing(a), is_drawing(b)
     choice.check_of_models(drawn)
     if view is not None and all(drawn):
-        raise OptionError("a view is said, and both sides are drawings already: leave it out, or name a model")
+        raise OptionError(
+            "a view is for a model, and both sides are drawings: leave it out, or name a model in place of one"
+        )
     if scale is not None and not (math.isfinite(scale) and scale > 0.0):
         raise OptionError(f"the scale is {scale!r}: give a positive number, paper to model")
     if all(drawn):
@@ -82,7 +84,9 @@ def _with_scale(sides: tuple[Side, ...], scale: float | None) -> tuple[Side, ...
         return sides
     silent = [side.about.scale is None and not side.about.views for side in sides]
     if not any(silent):
-        raise OptionError("a scale is said, and no side is a drawing that does not say its own: leave the scale out")
+        raise OptionError(
+            "a scale is for a drawing of another program, which does not say its own, and no side is one: leave it out"
+        )
     return tuple(
         replace(side, about=replace(side.about, scale=scale)) if here else side
         for side, here in zip(sides, silent, strict=True)

@@ -102,7 +102,8 @@ def _path(given: Any) -> Path:
     path = Path(given)
     check_readable(path)
     if path.suffix.lower() not in _READERS:
-        raise SourceError(f"{path.name} cannot be compared: give {listed(_READERS, 'or')}")
+        drawings = listed(_READERS, "or")
+        raise SourceError(f"{path.name} cannot be compared: give a drawing ({drawings}), or a model such as part.step")
     if path.stat().st_size > MOST_BYTES:
         raise SourceError(f"{path.name} has more than {MOST_BYTES >> 20} MiB: it is refused")
     return path

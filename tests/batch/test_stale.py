@@ -1,0 +1,97 @@
+"""Drawings of earlier runs whose sources are gone are named, and removed only where that is asked for."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+from batch.models import tetrahedron
+
+from hlr.batch.manifest import manifest_of
+from hlr.batch.plan import Plan, plan
+from hlr.batch.stale import remove, stale, told
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.setenv("HLR_CACHE", str(tmp_path / "cache"))
+    models = tmp_path / "models"
+    (models / "sub").mkdir(parents=True)
+    monkeypatch.chdir(models)
+    for number, name in enumerate(("a", "sub/b", "sub/c")):
+        tetrahedron(models / f"{name}.off", number + 1)
+    return models
+
+
+def run(*arguments):
+    line = [sys.executable, "-P", "-m", "hlr", "batch", "-j", "1", "--view", "front", *arguments]
+    done = subprocess.run(line, check=False, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    return done.stderr
+
+
+def report(folder):
+    return json.loads((folder / "drawings/manifest.json").read_text())
+
+
+@pytest.mark.slow
+def test_they_are_named_until_they_are_removed(folder):
+    assert "stay" not in run()
+    assert (report(folder)["folder"], report(folder)["stale"]) == ("..", [])
+    (folder / "sub/b.off").unlink()
+    drawing = folder / "drawings/sub/b-front.svg"
+    for _ in range(2):
+        why = "stays though its source is gone: sub/b-front.svg; --prune removes it."
+        assert f"1 drawing in {folder / 'drawings'} {why}" in run() and drawing.exists()
+        assert report(folder)["stale"] == [{"file": "sub/b-front.svg", "source": "sub/b.off"}]
+        assert "| sub/b-front.svg | sub/b.off |" in (folder / "drawings/summary.md").read_text()
+    assert "1 stale drawing removed." in run("--prune") and not drawing.exists()
+    assert report(folder)["stale"] == [] and (folder / "drawings/sub/c-front.svg").exists()
+    assert "stale" not in run("--prune")
+
+
+@pytest.mark.slow
+def test_a_run_of_some_sources_calls_no_other_stale(folder):
+    run()
+    assert "stay" not in run("a.off", "-o", "drawings")
+    assert len(list((folder / "drawings").rglob("*.svg"))) == 3
+
+
+def planned(folder, *names) -> Plan:
+    """A plan of what lies in a folder. names: files of an earlier run, by their source, which is gone."""
+    output = folder / "drawings"
+    output.mkdir()
+    rows = [{"source": "old.off", "drawings": [{"files": {"svg": name}} for name in names]}]
+    found = {"folder": "..", "stale": [], "sources": rows}
+    (output / "manifest.json").write_text(json.dumps(found))
+    return plan(manifest_of({"views": ["front"]}, folder), output)
+
+
+def test_only_drawings_inside_the_folder_count(folder):
+    names = ("x.svg", "../y.svg", "notes.txt", "link.svg", "missing.svg", "a-front.svg", str(folder / "z.svg"))
+    asked = planned(folder, *names)
+    for name in ("x.svg", "notes.txt", "a-front.svg", "../y.svg", "../z.svg"):
+        (folder / "drawings" / name).write_text("")
+    (folder / "drawings/link.svg").symlink_to(folder / "y.svg")
+    rows = stale(asked)
+    assert rows == [{"file": "x.svg", "source": "old.off"}]
+    assert remove(rows, asked.output) == [] and remove(rows, asked.output) == rows
+    assert (folder / "y.svg").exists() and (folder / "drawings/a-front.svg").exists()
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"folder": null, "stale": [], "sources": []}', "[" * 100_000])
+def test_a_broken_report_has_none(folder, text):
+    asked = planned(folder, "x.svg")
+    (folder / "drawings/x.svg").write_text("")
+    (folder / "drawings/manifest.json").write_text(text)
+    assert stale(asked) == []
+
+
+def test_of_many_some_are_named(tmp_path):
+    rows = [{"file": f"{i}.svg", "source": "a.off"} for i in range(7)]
+    assert told(rows, tmp_path) == (
+        f"7 drawings in {tmp_path} stay though their sources are gone: 0.svg, 1.svg, 2.svg, 3.svg, 4.svg and 2 more; "
+        "--prune removes them"
+    )
