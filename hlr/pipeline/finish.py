@@ -95,7 +95,7 @@ def finished(
         for name in ("crossing search", "piercing search"):
             planner.revised(name, True, "one convex body, but rounded its faces overlap in the image")
     # With some parts chosen, a rule may be for the others.
-    unused = () if options.only or options.hide else unused_rules(style, [part.name for part in image.parts])
+    unused = () if options.only or options.hide else unused_rules(style, image.parts)
     seconds = segments.found.seconds
     for name, steps in STEPS.items():
         planner.spent(name, sum(seconds[s] for s in steps))

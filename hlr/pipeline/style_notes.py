@@ -7,15 +7,19 @@ from collections.abc import Sequence
 from hlr.drawing.notes import Note
 from hlr.request.part_names import matches
 from hlr.request.style import Style
+from hlr.scene.scene import ScenePart
 from hlr.source.selection import suggestion
 
 MAX_NAMED = 3
 """Patterns with a note of their own; one more note has the number of all others."""
 
 
-def unused_rules(style: Style, names: Sequence[str]) -> list[Note]:
-    """One note per pattern of a style that matches none of the parts with these names."""
+def unused_rules(style: Style, parts: Sequence[ScenePart]) -> list[Note]:
+    """One note per pattern of a style that matches the name of none of these parts."""
     patterns = dict.fromkeys(rule.parts for rule in style.lines if rule.parts is not None)
+    if not patterns:
+        return []
+    names = [part.name for part in parts]
     unused = [pattern for pattern in patterns if not any(matches(name, pattern) for name in names)]
     texts = [
         f'the style\'s rule for parts "{pattern}" matches no part: {suggestion(pattern, names)}.'

@@ -39,11 +39,12 @@ def part_reports(
     brep = tables.brep.tolist()
     faces = (tables.face_start[1:] - tables.face_start[:-1]).tolist()
     own = drawn or [0] * len(brep)
-    is_open = any(report[0] for report in found.reports)
+    reports = found.reports
+    is_open = any(report[0] for report in reports)
     bordering = _border_edges(found, offsets, len(brep)) if is_open and any(brep) else [0] * len(brep)
     named = sheets() if is_open else ()
     out = []
-    for i, (label, counts) in enumerate(zip(whole.labels, found.reports, strict=True)):
+    for i, (label, counts) in enumerate(zip(whole.labels, reports, strict=True)):
         border, crowded, turned, flat, unclosed, outside_in, triangles, edges = counts
         sheet, open_edges = label.name in named, 0
         defects = []
