@@ -33,6 +33,8 @@ pub enum Node {
     Vertex(u32),
     /// A vertex at which every curve ends: an apex.
     Apex(u32, u32),
+    /// Within an edge, at a parameter (its bits).
+    Cut(u32, u64),
 }
 
 /// A stretch of an edge between a face turned toward the viewer and one turned away.

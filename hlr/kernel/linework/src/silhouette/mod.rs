@@ -11,6 +11,7 @@
 //! 2. `contour`  mesh edges where f changes its sign: the crossing is found on the true surface; where the two faces at
 //!               an edge change sign at different places, the edge itself is the fold in between, so no gap is left
 //!    `grazing`  borders of faces that are seen nearly edge-on, and whether these faces hide them
+//!    `behind`   farther borders of walls seen edge-on, where the surface comes toward the viewer by steps
 //! 3. `refine`   adds points on the surface between crossings until the chords are near enough; divides at cusps
 //! 4. `trace`    joins them into curves, divided where the face, the edge or the sign of the curvature changes,
 //!    `split`    and where the image of a curve would lie on itself
@@ -20,8 +21,10 @@
 //!
 //! It departs from the paper in that the crossings are not those of the linear interpolant but are moved onto the
 //! surface, and in that zeros at nodes (views along an axis) count as turned away, on every face alike: a plane seen
-//! edge-on that runs into a fillet is a fold along its nearer border only.
+//! edge-on that runs into a fillet is a fold along its nearer border only. Where what lies before that border is turned
+//! away as well, the farther border is the outline.
 
+pub mod behind;
 pub mod contour;
 pub mod curve;
 pub mod face;

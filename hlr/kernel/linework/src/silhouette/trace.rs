@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Model;
+use super::behind::behind;
 use super::contour::{Contour, Crossing, Fold, Node, contour, values};
 use super::curve::{Whole, circle, corner, tangent, through, whole_circle};
 use super::face::Face;
@@ -52,6 +53,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
         return None;
     }
     let Contour { crossings, mut folds, grazing } = contour(model, &values, stopped);
+    folds.extend(behind(model, &values, stopped));
     let same = Same::new(&crossings, &folds, OUTLINE_GAP * model.chord);
     let (across, lone) = over_triangles(&crossings);
     folds.extend(lone.into_iter().filter_map(|(t, c)| into_apex(model, &values, t, c, &crossings[c as usize])));

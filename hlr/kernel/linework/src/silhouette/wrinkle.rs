@@ -7,6 +7,9 @@
 //! the set the mesh tells this; from inner nodes the line of sight is followed on the surface, so that a finer mesh
 //! gives the same result.
 //!
+//! Blends are tangent to their walls only nearly. Where such a wall is seen edge-on, the strip of the blend next to it
+//! may face the viewer, and turn away again: a wrinkle, too, for the wall counts as turned away.
+//!
 //! ```text
 //!     +     +     +
 //!     x  -  x  -  x        x: the changes of sign next to the nodes in the wrinkle (-)
@@ -16,6 +19,7 @@
 use rayon::prelude::*;
 
 use super::face::{Face, root};
+use super::side::side;
 use super::{Model, TIE};
 use hlr_accuracy::OUTLINE_WRINKLE;
 use hlr_brep::geometry::vector::{length, sub};
@@ -29,8 +33,8 @@ struct Tie {
     border: bool,
 }
 
-/// Replaces the values at nodes in wrinkles by one from around them. Wrinkles that reach the border of their face stay, and
-/// those at a pole: how far it rises there the nodes do not tell.
+/// Replaces the values at nodes in wrinkles by one from around them. Wrinkles that reach the border of their face stay,
+/// unless a wall seen edge-on begins there, and those at a pole: how far it rises there the nodes do not tell.
 pub fn flatten(model: &Model, values: &mut [f64]) {
     let ties = ties(model, values);
     let away = |n: u32| values[n as usize] >= -TIE;
@@ -43,12 +47,14 @@ pub fn flatten(model: &Model, values: &mut [f64]) {
     }
     let patch: Vec<usize> = (0..values.len()).map(|n| patches.first(n)).collect();
     // A patch that rises above the tolerance anywhere is no wrinkle. Zeros are decided by the rule for ties.
+    let walls = beside_walls(model, values);
+    let ends = |tie: &Tie, n: usize| tie.border && (away(n as u32) || walls.binary_search(&tie.nodes).is_err());
     let mut wide = vec![false; values.len()];
     let mut rim = vec![false; values.len()];
     for tie in &ties {
         let apart = patch[tie.nodes[0] as usize] != patch[tie.nodes[1] as usize];
         for n in tie.nodes.map(|n| n as usize) {
-            wide[patch[n]] |= tie.border || values[n].abs() <= TIE;
+            wide[patch[n]] |= ends(tie, n) || values[n].abs() <= TIE;
             rim[n] |= apart;
         }
     }
@@ -106,6 +112,38 @@ fn turns_back(face: &Face, model: &Model, node: usize, f: f64) -> bool {
             face.f(uv).is_some_and(|here| here.is_finite() && (here > 0.0) != (f > 0.0))
         })
     })
+}
+
+/// The pairs of nodes, ascending, between which a face goes on smoothly as a wall that is seen edge-on, and one of which
+/// is turned toward the viewer.
+fn beside_walls(model: &Model, values: &[f64]) -> Vec<[u32; 2]> {
+    let wall_beyond = |e: usize, own: i32, other: i32| -> Option<[u32; 2]> {
+        let corners = &model.triangles[own as usize];
+        let node = |v: i32| {
+            let k = corners.iter().position(|&c| c == v)?;
+            let n = model.corner[own as usize][k];
+            (n >= 0).then_some(n as u32)
+        };
+        let [a, b] = model.edges[e].map(node);
+        let (a, b) = (a?, b?);
+        [a, b].iter().find(|&&n| values[n as usize] < -TIE)?;
+        let wall = side(model, values, e, other)?;
+        wall.f.iter().all(|f| f.abs() <= TIE).then_some([a.min(b), a.max(b)])
+    };
+    let mut found: Vec<[u32; 2]> = (0..model.offsets.len() - 1)
+        .into_par_iter()
+        .filter(|&e| model.smooth[e])
+        .flat_map_iter(|e| {
+            let around = &model.incident[model.offsets[e] as usize..model.offsets[e + 1] as usize];
+            let ways = match *around {
+                [s, t] if model.triangle_face[s as usize] != model.triangle_face[t as usize] => vec![(s, t), (t, s)],
+                _ => Vec::new(),
+            };
+            ways.into_iter().filter_map(move |(own, other)| wall_beyond(e, own, other))
+        })
+        .collect();
+    found.par_sort_unstable();
+    found
 }
 
 /// Nodes with a value in triangles that have a pole; the values of other triangles say nothing of theirs.
