@@ -13,7 +13,6 @@
 //! ```
 
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
 use super::contour::{Fold, Node};
 use super::face::mean;
@@ -23,6 +22,9 @@ use super::{Model, TIE};
 use hlr_accuracy::OUTLINE_BEHIND;
 use hlr_brep::geometry::vector::{Vector, along, cross, dot, sub, unit};
 use hlr_brep::sets::Sets;
+use hlr_exact::snap::Grid;
+use hlr_visibility::boxes::aabb::{Aabb, Item};
+use hlr_visibility::boxes::tree::Tree;
 
 /// Curvature along the line of sight times the chord tolerance: a surface with less is straight.
 const STRAIGHT: f64 = 1e-9;
@@ -54,8 +56,13 @@ pub fn behind(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync)
     let found: Vec<(u32, i32, Border, Chord)> = (0..model.offsets.len() - 1)
         .into_par_iter()
         .filter(|&e| model.smooth[e] && !stopped())
-        .filter_map(|e| border(model, values, e).map(|(wall, border)| (e as u32, wall, border, in_image(model, e))))
+        .filter_map(|e| {
+            let (wall, border) = border(model, values, e)?;
+            Some((e as u32, wall, border, in_image(model, e)?))
+        })
         .collect();
+    let ends: Vec<Vector> = found.iter().flat_map(|(.., place)| place.ends.map(|[x, y]| [x, y, 0.0])).collect();
+    let Some(grid) = Grid::around(&ends).map(Grid::uniform) else { return Vec::new() };
     let mut walls = Sets::new(model.faces.len());
     for (_, wall, border, _) in &found {
         if let Border::Within(other) = border {
@@ -63,30 +70,52 @@ pub fn behind(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync)
         }
     }
     let wall_of: Vec<usize> = found.iter().map(|(_, wall, ..)| walls.first(*wall as usize)).collect();
-    let (mut near, mut outlines) = (FxHashMap::default(), FxHashMap::default());
+    let (mut near, mut outlines) = (Vec::new(), Vec::new());
     for ((.., border, place), wall) in found.iter().zip(&wall_of) {
-        let of_wall: &mut FxHashMap<usize, Vec<Chord>> = match border {
-            Border::Near => &mut near,
-            Border::Outline => &mut outlines,
-            _ => continue,
-        };
-        of_wall.entry(*wall).or_default().push(*place);
+        match border {
+            Border::Near => near.push((*wall, *place)),
+            Border::Outline => outlines.push((*wall, *place)),
+            _ => {}
+        }
     }
-    let stretches = |e: u32, border: &Border, place: &Chord, wall: &usize| -> Vec<Fold> {
-        let covered = |chords: &FxHashMap<usize, Vec<Chord>>| -> Vec<[f64; 2]> {
-            chords.get(wall).into_iter().flatten().filter_map(|chord| place.covered_by(chord)).collect()
-        };
+    let (near, outlines) = (Chords::new(near, &grid), Chords::new(outlines, &grid));
+    let stretches = |e: u32, border: &Border, place: &Chord, wall: usize| -> Vec<Fold> {
         let Border::Far(fold) = border else { return Vec::new() };
-        let before = if stopped() { Vec::new() } else { covered(&near) };
+        let before = if stopped() { Vec::new() } else { near.covering(wall, place, &grid) };
         if before.is_empty() {
             return Vec::new();
         }
         let least = place.off / place.long();
-        let left = without(united(before, least), united(covered(&outlines), least));
+        let left = without(united(before, least), united(outlines.covering(wall, place, &grid), least));
         left.into_iter().filter(|[from, to]| to - from > least).map(|range| part_of(fold, e, range)).collect()
     };
     let all = found.par_iter().zip(&wall_of);
-    all.flat_map_iter(|((e, _, border, place), wall)| stretches(*e, border, place, wall)).collect()
+    all.flat_map_iter(|((e, _, border, place), wall)| stretches(*e, border, place, *wall)).collect()
+}
+
+/// Chords, the wall of each, and the hierarchy of their boxes.
+struct Chords {
+    all: Vec<(usize, Chord)>,
+    tree: Tree,
+}
+
+impl Chords {
+    fn new(all: Vec<(usize, Chord)>, grid: &Grid) -> Chords {
+        let items: Vec<Item> = all.iter().zip(0..).map(|((_, chord), k)| (chord.reach(grid), k)).collect();
+        Chords { all, tree: Tree::new(&items) }
+    }
+
+    /// Between which of its parameters, from 0 to 1, chords of its wall lie on another.
+    fn covering(&self, wall: usize, chord: &Chord, grid: &Grid) -> Vec<[f64; 2]> {
+        let mut found = Vec::new();
+        self.tree.query(&chord.reach(grid), |k| {
+            let (other, covering) = &self.all[k as usize];
+            if *other == wall {
+                found.extend(chord.covered_by(covering));
+            }
+        });
+        found
+    }
 }
 
 /// The stretch of a fold between two of its parameters, from 0 to 1.
@@ -202,7 +231,7 @@ impl Chord {
     /// Between which of its parameters, from 0 to 1, another lies on it.
     fn covered_by(&self, other: &Chord) -> Option<[f64; 2]> {
         let (long, off) = (self.long(), self.off.max(other.off));
-        if long == 0.0 || !self.meets(other, off) {
+        if long == 0.0 {
             return None;
         }
         let [a, b] = self.ends;
@@ -222,32 +251,34 @@ impl Chord {
         (near[0] < near[1] && p != q).then(|| [p.min(q), p.max(q)])
     }
 
-    /// Whether the boxes of both meet.
-    fn meets(&self, other: &Chord, off: f64) -> bool {
-        (0..2).all(|k| {
-            let range = |chord: &Chord| {
-                let [a, b] = chord.ends.map(|p| p[k]);
-                [a.min(b), a.max(b)]
-            };
-            let (a, b) = (range(self), range(other));
-            a[0] <= b[1] + off && b[0] <= a[1] + off
-        })
+    /// A box on the grid around all that may lie on it.
+    fn reach(&self, grid: &Grid) -> Aabb {
+        let [a, b] = self.ends;
+        let low = [0, 1].map(|k| a[k].min(b[k]) - self.off);
+        let high = [0, 1].map(|k| a[k].max(b[k]) + self.off);
+        // One step wider on each side, to cover the rounding.
+        let [low, high] =
+            [(low, -1), (high, 1)].map(|([x, y], step)| grid.snap(&[x, y, 0.0]).map(|c| c.saturating_add(step)));
+        Aabb { low, high }
     }
 }
 
-fn in_image(model: &Model, e: usize) -> Chord {
+/// None where an end lies beside the eye or behind it.
+fn in_image(model: &Model, e: usize) -> Option<Chord> {
     let view = &model.view;
     let least = (0..3).min_by(|&i, &j| view.away[i].abs().total_cmp(&view.away[j].abs())).unwrap_or(0);
     let right = cross(&view.away, &[0, 1, 2].map(|k| if k == least { 1.0 } else { 0.0 }));
     let right = unit(&right).unwrap_or([0.0; 3]);
     let up = cross(&right, &view.away);
-    let seen = |v: i32| -> ([f64; 2], f64) {
+    let seen = |v: i32| -> Option<([f64; 2], f64)> {
         let from: Vector = sub(&model.points[v as usize], &view.origin);
         let depth = if view.perspective { dot(&from, &view.away) } else { 1.0 };
-        ([dot(&from, &right) / depth, dot(&from, &up) / depth], OUTLINE_BEHIND * model.chord / depth)
+        let place = [dot(&from, &right) / depth, dot(&from, &up) / depth];
+        (depth > 0.0).then_some((place, OUTLINE_BEHIND * model.chord / depth))
     };
-    let [(a, off), (b, other)] = model.edges[e].map(seen);
-    Chord { ends: [a, b], off: off.max(other) }
+    let [a, b] = model.edges[e];
+    let ((a, off), (b, other)) = (seen(a)?, seen(b)?);
+    Some(Chord { ends: [a, b], off: off.max(other) })
 }
 
 #[cfg(test)]
