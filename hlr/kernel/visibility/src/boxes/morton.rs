@@ -7,6 +7,10 @@ use super::aabb::{Aabb, Item, middle};
 
 /// With fewer items a second thread gains nothing.
 pub const ALONE: usize = 4096;
+/// Fewer items are sorted by comparing them, and so many on all threads. The others are sorted by digits, which takes a
+/// fifth of the time.
+const FEW: usize = 512;
+const MANY: usize = 1 << 17;
 
 /// Items along the curve. codes: the position of each item along the curve, ascending; bits below `INDEX_BITS` do not
 /// count.
@@ -20,14 +24,18 @@ pub fn sorted(items: &[Item], whole: usize, threads: bool) -> Sorted {
     let cube = MortonCube::of(items);
     let code = |(k, (bounds, _)): (usize, &Item)| cube.code(bounds) << INDEX_BITS | k as u64;
     let item = |code: &u64| items[(code & ((1 << INDEX_BITS) - 1)) as usize];
-    let (codes, mut sorted): (Vec<u64>, Vec<Item>) = if threads && items.len() > ALONE {
+    let (codes, mut sorted): (Vec<u64>, Vec<Item>) = if threads && items.len() >= MANY {
         let mut codes: Vec<u64> = items.par_iter().with_min_len(ALONE).enumerate().map(code).collect();
         codes.par_sort_unstable();
         let sorted = codes.par_iter().with_min_len(ALONE).map(item).collect();
         (codes, sorted)
     } else {
         let mut codes: Vec<u64> = items.iter().enumerate().map(code).collect();
-        codes.sort_unstable();
+        if codes.len() < FEW {
+            codes.sort_unstable()
+        } else {
+            sort_by_digits(&mut codes)
+        }
         let sorted = codes.iter().map(item).collect();
         (codes, sorted)
     };
@@ -38,6 +46,26 @@ pub fn sorted(items: &[Item], whole: usize, threads: bool) -> Sorted {
 /// Bits of a position along Morton's curve that are the number of the item, and bits of each of its coordinates.
 pub const INDEX_BITS: u32 = 31;
 const SIDE_BITS: u32 = 11;
+
+/// Sorts codes whose lowest bits, the numbers of the items, ascend already: digit by digit, each with a counting sort.
+fn sort_by_digits(codes: &mut Vec<u64>) {
+    let mut other = vec![0; codes.len()];
+    for shift in [0, 1, 2].map(|digit| INDEX_BITS + digit * SIDE_BITS) {
+        let digit = |code: u64| (code >> shift) as usize & ((1 << SIDE_BITS) - 1);
+        let mut next = [0u32; 1 << SIDE_BITS];
+        codes.iter().for_each(|&code| next[digit(code)] += 1);
+        let mut before = 0;
+        for count in &mut next {
+            before += std::mem::replace(count, before);
+        }
+        for &code in codes.iter() {
+            let place = &mut next[digit(code)];
+            other[*place as usize] = code;
+            *place += 1;
+        }
+        std::mem::swap(codes, &mut other);
+    }
+}
 
 /// A cube around the middles of boxes, divided into cells along Morton's curve. Middles are sums of two coordinates.
 struct MortonCube {
@@ -86,6 +114,27 @@ fn sort_within_cells(items: &mut [Item], codes: &[u64], shift: u32, whole: usize
             own.sort_by_cached_key(|(bounds, item)| (cube.code(bounds), *item));
             let finer: Vec<u64> = own.iter().map(|(bounds, _)| cube.code(bounds)).collect();
             sort_within_cells(own, &finer, 0, whole);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_sort_as_comparisons_do() {
+        let mut state = 1u64;
+        let mut random = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            state >> 33
+        };
+        for bits in [33, 12, 0] {
+            let mut codes: Vec<u64> = (0..5000).map(|k| (random() & ((1 << bits) - 1)) << INDEX_BITS | k).collect();
+            let mut expected = codes.clone();
+            expected.sort_unstable();
+            sort_by_digits(&mut codes);
+            assert_eq!(codes, expected);
         }
     }
 }

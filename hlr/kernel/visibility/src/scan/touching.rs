@@ -19,7 +19,6 @@ use super::exact_query::ExactQuery;
 use super::invisibility::{Piece, State};
 use super::mesh::Mesh;
 use super::own_faces::OwnFaces;
-use crate::boxes::tree::Tree;
 
 /// The outlines, each as its stretches, that are hidden in part and lie at polygons of other groups. near: per group,
 /// whether others come near it; pieces ascend by edge.
@@ -47,13 +46,15 @@ pub fn touching(
     if outlines.is_empty() {
         return Vec::new();
     }
-    let around = (0..mesh.triangles.len() as u32).filter(|&t| is_near(mesh.triangle_group[t as usize]));
-    let tree = Tree::new(&exact.boxes(around));
+    exact.prepare();
     let touches = |run: &Range<usize>| {
         let group = mesh.edge_group[own.edge[run.start] as usize];
         run.clone().any(|stretch| {
             let mut found = false;
-            tree.query(&own.reach(mesh, stretch), |t| found |= mesh.triangle_group[t as usize] != group);
+            exact.tree().query(&own.reach(mesh, stretch), |t| {
+                let other = mesh.triangle_group[t as usize];
+                found |= other != group && is_near(other);
+            });
             found
         })
     };
