@@ -27,7 +27,8 @@ SKEW = {"skew": (0.4, -0.7, 0.5)}
 
 def post():
     """A post with a rounded end, and a fillet at its flange: from below, the flange hides the whole post."""
-    return cq.Workplane().circle(20).extrude(4).faces(">Z").workplane().circle(6).extrude(20).edges("%CIRCLE").fillet(1.5)
+    flange = cq.Workplane().circle(20).extrude(4).faces(">Z").workplane()
+    return flange.circle(6).extrude(20).edges("%CIRCLE").fillet(1.5)
 
 
 def rounded_box():
