@@ -21,7 +21,8 @@ pub(super) struct Node {
 /// Most items of a leaf.
 pub(super) const LEAF: usize = 12;
 
-/// More nodes than ever wait for a query: those of one cell are halved, the others divided by a bit of the curve.
+/// More nodes than ever wait in a query: at most one for each of the 33 bits of the curve, and of the items of one cell one
+/// for each time that these are halved.
 const DEEPEST: usize = 96;
 
 impl Tree {
@@ -158,10 +159,13 @@ mod tests {
 
     #[test]
     fn a_hierarchy_as_deep_as_can_be_is_searched_through() {
-        // Each cell of the curve holds one item far off and all the others: every bit of the codes divides them.
-        let at = |k: u32| Aabb { low: [(1u32 << k) as i32; 3], high: [(1u32 << k) as i32 + 1; 3] };
-        let mut boxes: Vec<Item> = (0..30).map(|k| (at(k), k)).collect();
-        boxes.extend((30..5000).map(|k| (at(0), k)));
+        // Each bit of the curve divides one item from all others; those in the corner are one cell.
+        let at = |axis: usize, x: i32| {
+            let low = [0, 1, 2].map(|k| if k == axis { x } else { 0 });
+            Aabb { low, high: low.map(|c| c + 1) }
+        };
+        let mut boxes: Vec<Item> = (0..90).map(|k| (at(k % 3, 1 << (k / 3)), k as u32)).collect();
+        boxes.extend((90..5000).map(|k| (at(0, 0), k)));
         let tree = Tree::new(&boxes);
         let mut found = 0;
         tree.query(&Aabb { low: [0; 3], high: [i32::MAX; 3] }, |_| found += 1);

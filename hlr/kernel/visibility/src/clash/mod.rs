@@ -3,7 +3,7 @@
 //!
 //!    `boxes_meet`    whether there is anything to search at all
 //! 0. `surfaces`      the triangles in their groups, on the grid
-//! 1. `search`        which triangles may meet: overlapping boxes of groups, then of triangles, found with a hierarchy of `boxes`
+//! 1. `search`        which triangles may meet: overlapping boxes of groups, then of triangles (`boxes`)
 //!    `height_field`  pieces of a surface in which no two triangles meet, recognised by their borders
 //!    `planar_faces`  triangles of one planar face, and those that stand on it, do not pass through it
 //!    `uncrossed`     planar faces that hardly anything of their body crosses: left out of the search
