@@ -1,7 +1,7 @@
 """The Rust kernel. Arrays are C-contiguous, indices int32; every call raises ValueError on an array of wrong shape.
 
 Lengths are in model units unless another unit is named. A group is a set of triangles that the visibility pass treats
-as one surface (`hlr.scene.scene.Groups`); groups share no points.
+as one surface (`Groups`); groups share no points.
 """
 
 from collections.abc import Callable, Sequence
@@ -83,9 +83,6 @@ def clashes(points: Floats, triangles: Ints, triangle_group: Ints, itself: Bools
     beyond each other, and sine (m,) of the angle between them; searched and tests: pairs that were counted on the way.
     """
 
-def boxes_meet(low: Floats, high: Floats) -> Bools:
-    """(n,) whether each box, low (n, 3) to high (n, 3), comes near another: False only where it certainly does not."""
-
 def limit_threads(threads: int) -> int:
     """Set how many threads the calls of this thread use; 0: all cores.
 
@@ -108,28 +105,109 @@ class Mesh:
 
     def __new__(cls, points: Floats, triangles: Ints, edges: Ints, offsets: Ints, incident: Ints) -> Mesh: ...
 
-def edge_roles(curved: Bools, kind: Bytes, roles: Bytes) -> Bytes:
-    """(e,) of each edge roles[curved, kind]; roles (512,): first of kinds beside no curved face, then beside one."""
-
 class Groups:
-    """triangle (t,), edge (e,): the group of each; the other columns are properties of each group (g,).
+    """Groups of a scene's triangles, each of which the visibility pass may treat as one surface.
 
-    cull: closed and oriented outward, so that back faces are left out; sound: does not pass through itself; delta:
-    contact tolerance, and cap: the most that anything is moved before it is compared with this group, both in depth
-    units of the view; tight: lines that lie exactly on triangles of other groups. ValueError where they do not fit. The
-    numbers of groups are not copied.
+    A group is a closed B-rep part, or a connected piece of anything else.
+
+    closed   (g,): every edge is used as often in one direction as in the other
+    cull     (g,): closed, and turned outward: faces turned away need not be looked at
+    inward   (g,): closed, and turned inward, as a cavity is
+    sound    (g,): does not pass through itself, as far as its source tells
+    bare     (g,): a piece of a mesh without B-rep
+    tight    (g,): lines that lie exactly on other groups' triangles
+    planar   (g,): only planar faces: exact, except for the rounding of the file
+    extent   (g,): its thickness; the smallest side of its box if that is less or it is open; model units
+    low, high (g, 3): its box; low is beyond high where it is empty
+    """
+
+    closed: Bools
+    cull: Bools
+    inward: Bools
+    sound: Bools
+    bare: Bools
+    tight: Bools
+    planar: Bools
+    extent: Floats
+    low: Floats
+    high: Floats
+    def __len__(self) -> int: ...
+    def with_wires(self, points: Floats, wires: Ints, owner: npt.NDArray[np.int64], tight: bool) -> tuple[Groups, Ints]:
+        """These groups, and an open one per distinct owner (m,) of edges without triangles, wires (m, 2) into points.
+
+        tight: the edges lie exactly on triangles of other groups. Returns the groups, and that of each edge (m,).
+        """
+
+    def opened(self, which: Bools) -> Groups:
+        """These groups after triangles of those in `which` (g,) were taken away: not closed, and not culled."""
+
+    def unsound(self, which: Bools) -> Groups:
+        """These groups where those in `which` (g,) pass through themselves: they are neither sound nor culled."""
+
+    def meeting(self) -> Bools:
+        """(g,) whether the box of each group comes near that of another: False only where it certainly does not."""
+
+class Plan:
+    """What the visibility pass is told of edges and groups: decided for a view of a scene, or, by `of`, given.
+
+    triangle (t,), edge (e,): the group of each, not copied; curved (e,), kind (e,): of the edges; hidden (e,): edges
+    that their own body hides have no role; roles (2, 256): by the class of an edge, first beside no curved face, then
+    beside one; drawn: per line class, whether edges of the source are drawn; contact: depths within which surfaces
+    touch, of curved and of planar groups in model units, of meshes as a share of the scene's diagonal; rounding: the
+    same for lines that lie on surfaces and for open sheets, model units. ValueError where they do not fit.
     """
 
     def __new__(
         cls,
+        groups: Groups,
         triangle: Ints,
         edge: Ints,
+        curved: Bools,
+        kind: Bytes,
+        hidden: Bools | None,
+        roles: Bytes,
+        drawn: list[bool],
+        camera: Camera,
+        contact: tuple[float, float, float],
+        rounding: float,
+    ) -> Plan: ...
+    @staticmethod
+    def of(
+        triangle: Ints,
+        edge: Ints,
+        role: Bytes,
+        *,
         cull: Bools,
         sound: Bools,
         delta: Floats,
         cap: Floats,
         tight: Bools,
-    ) -> Groups: ...
+        drawn: list[bool],
+    ) -> Plan:
+        """A plan that is decided already: role (e,), and the properties of each group (g,)."""
+
+    role: Bytes
+    """(e,) 1 drawn, 2 drawn where it is a contour, 3 both, 0 not drawn."""
+
+    @property
+    def delta(self) -> Floats:
+        """(g,) contact tolerance in depth units of the view: what is hidden by less counts as touching."""
+
+    @property
+    def cap(self) -> Floats:
+        """(g,) the most that anything is moved before it is compared with this group: half its thickness."""
+
+    def coming_near(self, lift: float, spare: float) -> int:
+        """How many groups come within the contact tolerance of another, or may.
+
+        lift: how far lines may be off their surfaces, model units; spare: the factor of the tolerance that covers all
+        rounding. ValueError where the plan was given.
+        """
+
+    def counts(self) -> tuple[int, int, int, int, int]:
+        """How many groups have triangles, are culled, may pass through themselves, do so and are not culled; edges with
+        a role. ValueError where the plan was given.
+        """
 
 class OwnFaces:
     """Edges whose own faces are seen nearly edge-on: the columns of `hlr.scene.scene.OwnFaces`.
@@ -173,11 +251,11 @@ class Visibility:
 def visibility(
     mesh: Mesh,
     projected: Floats,
-    groups: Groups,
-    role: Bytes,
+    plan: Plan,
     own: OwnFaces | None = None,
     hidden: Bools | None = None,
     *,
+    contact: bool = True,
     crossings: bool = True,
     piercings: bool = True,
     pyramid: bool = False,
@@ -185,10 +263,10 @@ def visibility(
 ) -> Visibility:
     """Decides which pieces of the edges are visible; projected (n, 3): x right, y up, z away from the viewer.
 
-    role (e,): 1 drawn, 2 drawn where it is a contour, 0 not drawn. hidden (e,): its own body hides it, so it has one
-    hidden piece, whatever its role. crossings, piercings, pyramid: the steps to run, as
-    in `hlr.visibility.plan.Plan`. arithmetic: exact, f64 or f32. ValueError where shapes do not fit or a coordinate is
-    not finite, KeyboardInterrupt within milliseconds of Ctrl-C.
+    hidden (e,): its own body hides it, so it has one hidden piece, whatever its role. contact: surfaces touch within
+    the plan's tolerance. crossings, piercings, pyramid: the steps to run, as in `hlr.visibility.plan.Plan`.
+    arithmetic: exact, f64 or f32. ValueError where shapes do not fit or a coordinate is not finite, KeyboardInterrupt
+    within milliseconds of Ctrl-C.
     """
 
 class Curves:
@@ -331,8 +409,7 @@ def outlined(
     on: TrueSurfaces,
     columns: tuple[Bytes, Ints, Ints, Bools, Ints],
     first: Ints,
-    closed: Bools,
-    near: Bools,
+    groups: Groups,
     convex: bool,
     kinds: tuple[Bools, Bools, int, int],
     camera: Camera,
@@ -341,11 +418,10 @@ def outlined(
     """The image with these outlines.
 
     columns: class, part and group of each edge, and whether a curved surface may show its outline there; group of each
-    triangle. first (p,): the first face of each part; closed (g,): groups that are closed bodies; near (g,): those that
-    others come near; convex: all is one convex body. kinds: (256,) by the class of an edge, whether it bounds faces,
-    and whether they join smoothly there; the class of outlines, and that of edges inside faces. lengths, model units:
-    how far points are moved beyond the triangles that stand out, at most, and off a face before a line is compared with
-    it. ValueError where they do not fit.
+    triangle. first (p,): the first face of each part; convex: all is one convex body. kinds: (256,) by the class of an
+    edge, whether it bounds faces, and whether they join smoothly there; the class of outlines, and that of edges inside
+    faces. lengths, model units: how far points are moved beyond the triangles that stand out, at most, and off a face
+    before a line is compared with it. ValueError where they do not fit.
     """
 
 _Vector = tuple[float, float, float]
@@ -429,20 +505,18 @@ class Walks:
 class Chains:
     """Walks over mesh edges that become lines: those of the source, then contours of the mesh.
 
-    drawn: per line class, whether walks of it are drawn; triangle_part, triangle_face (t,); has_faces (parts,); role
-    (e,) uint8 as the visibility pass has it; found: what that pass found. ValueError where they do not fit.
+    Walks of the classes that the plan draws. triangle_part, triangle_face (t,); has_faces (parts,); found: what the
+    visibility pass found by this plan. ValueError where they do not fit.
     """
 
     def __new__(
         cls,
         walks: Walks,
-        drawn: list[bool],
+        plan: Plan,
         mesh: Mesh,
-        groups: Groups,
         triangle_part: Ints,
         triangle_face: Ints,
         has_faces: Bools,
-        role: Bytes,
         found: Visibility,
     ) -> Chains: ...
     @property
@@ -913,8 +987,8 @@ class MeshScene:
     triangle_part, triangle_group, curved (t,): the face may show an outline; turned (t,): None where none was
     loose (l, 2): edges of the source that no triangle has; their numbers follow those of `mesh`
     edge_part, edge_group, edge_curved (e,) of the edges with triangles; edge_kind (e + l,): EdgeClass, 255 for none
-    group_part, closed, cull, inward, planar, extent, low, high (g, ...) as in `hlr.scene.scene.Groups`; welded (g,): a
-    mesh without B-rep with more than two triangles at an edge; folded (g,): not surely one convex body
+    group_part (g,); welded (g,): a mesh without B-rep with more than two triangles at an edge; folded (g,): not surely
+    one convex body
     walk_*: as in `hlr.scene.scene.Chains`, of the source's edges; face_*, corner: as in `TrueSurfaces`
     reports: of each part the border edges, edges of more than two triangles, edges between faces of opposite
     orientation, triangles without area, groups that are not closed, groups turned, triangles, and edges of the source
@@ -932,13 +1006,6 @@ class MeshScene:
     edge_kind: Bytes
     edge_curved: Bools
     group_part: Ints
-    closed: Bools
-    cull: Bools
-    inward: Bools
-    planar: Bools
-    extent: Floats
-    low: Floats
-    high: Floats
     welded: Bools
     folded: Bools
     walk_offsets: Ints
@@ -953,9 +1020,13 @@ class MeshScene:
     face_inward: Bools
     face_curved: Bools
     reports: list[list[int]]
-    def crossings(self, touch: Floats, deflection: float) -> tuple[Floats, Ints, Ints, Ints, Bools, int]:
-        """As in `hlr.scene.clash.Clashes`. touch (g,), model units: nearer than this to another surface, a group
-        touches it; deflection: what the parts were meshed with."""
+    def groups(self) -> Groups:
+        """Properties of its groups."""
+
+    def crossings(
+        self, groups: Groups, contact: tuple[float, float, float], deflection: float
+    ) -> tuple[Floats, Ints, Ints, Ints, Bools, int]:
+        """As in `hlr.scene.clash.Clashes`. contact: as in `Plan`; deflection: what the parts were meshed with."""
 
 class ShadedModel:
     """A triangle mesh with normals and colours, for any number of pictures."""

@@ -20,7 +20,7 @@ from hlr.image.image import Image, OwnFaces, Silhouettes
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Vector
 from hlr.scene.chains import edge_keys
-from hlr.scene.scene import Chains, Groups
+from hlr.scene.scene import Chains
 from hlr.tables.line_classes import INTERIOR
 
 
@@ -171,7 +171,7 @@ def _cut(image: Image, height: Floats) -> Image:
     edge_part, edge_group = moved(image.edge_part, 0), moved(image.edge_group, 0)
     edge_part[tied] = image.triangle_part[parent][first]
     edge_group[tied] = image.triangle_group[parent][first]
-    open_now = np.zeros(len(image.groups.cull), bool)
+    open_now = np.zeros(len(image.groups), bool)
     open_now[image.edge_group[crossing]] = True
     return replace(
         image,
@@ -192,7 +192,7 @@ def _cut(image: Image, height: Floats) -> Image:
         edge_group=edge_group,
         edge_kind=moved(image.edge_kind, INTERIOR),
         edge_curved=moved(image.edge_curved, 0),
-        groups=_opened(image.groups, open_now),
+        groups=image.groups.opened(open_now),
         chains=_moved_chains(image.chains, target, swapped),
     )
 
@@ -241,10 +241,6 @@ def _cut_own(own: OwnFaces, target: Ints) -> OwnFaces:
         face=own.face[member],
         off=target[own.off[member]],
     )
-
-
-def _opened(groups: Groups, opened: np.ndarray) -> Groups:
-    return replace(groups, closed=groups.closed & ~opened, cull=groups.cull & ~opened)
 
 
 def _cut_triangles(

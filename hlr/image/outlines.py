@@ -64,8 +64,7 @@ def _with_outlines(image: Image, surfaces: TrueSurfaces) -> Image:
         on,
         (image.edge_kind, image.edge_part, image.edge_group, image.edge_curved, image.triangle_group),
         surfaces.first,
-        image.groups.cull,
-        _near_others(image, OUTLINE_LIFT * deflection),
+        image.groups,
         image.convex,
         (_borders(), _tangent(), EdgeClass.OUTLINE, INTERIOR),
         image.camera.scaled(1.0),
@@ -105,16 +104,6 @@ def _with_outlines(image: Image, surfaces: TrueSurfaces) -> Image:
         ),
         chains=merge_chains(image.chains, _walks(shown, len(image.edges))),
     )
-
-
-def _near_others(image: Image, lift: float) -> npt.NDArray[np.bool_]:
-    """(g,) whether a group comes so near another that its outlines, moved by `lift`, may lie within that."""
-    groups = image.groups
-    used = np.isfinite(groups.low[:, 0])
-    near = np.zeros(len(used), bool)
-    if np.count_nonzero(used) > 1:
-        near[used] = _kernel.boxes_meet(groups.low[used] - lift, groups.high[used] + lift)
-    return near
 
 
 def _traced(

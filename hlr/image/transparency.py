@@ -49,7 +49,7 @@ def without_glass(image: Image, glass: npt.NDArray[np.bool_]) -> Image:
     per_edge = np.add.reduceat(np.append(held, False), image.offsets[:-1]) if len(image.edges) else np.zeros(0, int)
     # For an edge without triangles reduceat gives the next value: its count is zero.
     per_edge = np.where(np.diff(image.offsets) > 0, per_edge, 0)
-    opened = np.zeros(len(image.groups.cull), bool)
+    opened = np.zeros(len(image.groups), bool)
     opened[image.triangle_group[glass]] = True
     silhouettes = image.silhouettes
     if silhouettes is not None:
@@ -66,7 +66,7 @@ def without_glass(image: Image, glass: npt.NDArray[np.bool_]) -> Image:
         facets=None if image.facets is None else image.facets[kept],
         offsets=np.concatenate([[0], np.cumsum(per_edge)]).astype(np.int32),
         incident=np.ascontiguousarray(number[image.incident[held]], np.int32),
-        groups=replace(image.groups, closed=image.groups.closed & ~opened, cull=image.groups.cull & ~opened),
+        groups=image.groups.opened(opened),
         true_surfaces=None if surfaces is None else replace(surfaces, corner=surfaces.corner[kept]),
         silhouettes=silhouettes,
         convex=False,

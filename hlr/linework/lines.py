@@ -93,16 +93,14 @@ def _chains(image: Image, plan: Plan, segments: Segments) -> _kernel.Chains:
         chains.index,
         chains.face,
         chains.other,
-        plan.straight,
+        chains.straight,
     )
     return _kernel.Chains(
         walks,
-        plan.drawn_kind,
+        plan.edges,
         segments.mesh,
-        segments.groups,
         image.triangle_part,
         image.triangle_face,
         np.array([p.faces > 0 for p in image.parts], bool),
-        plan.role,
         segments.found,
     )

@@ -7,19 +7,17 @@ from time import perf_counter
 
 import numpy as np
 
-from hlr import _kernel
-from hlr._kernel import MeshFacts, MeshScene
+from hlr._kernel import Groups, MeshFacts, MeshScene
 from hlr.common.types import Floats
 from hlr.errors import SourceError
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
 from hlr.scene.chains import crease_chains, merge_chains
-from hlr.scene.clash import find_clashes, mark_unsound, no_clashes, self_intersecting_parts
+from hlr.scene.clash import find_clashes, no_clashes, self_intersecting_parts
 from hlr.scene.creases import creases
 from hlr.scene.defects import defect_notes, part_reports
 from hlr.scene.duplicates import without_duplicates
-from hlr.scene.groups import add_wires, groups_of
 from hlr.scene.intersection_lines import intersection_lines
 from hlr.scene.needles import reliable_normals
 from hlr.scene.scene import Chains, Scene, TrueSurfaces
@@ -44,39 +42,39 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
     points, triangles, brep = tables.points, found.triangles, tables.brep
     group_of, group_part, edge_part = found.triangle_group, found.group_part, found.edge_part
     edges, offsets, edge_group, kind = mesh.edges, mesh.offsets, found.edge_group, found.edge_kind
+    groups = found.groups()
     chains, facets, drawn = _source_chains(found), None, None
     if not brep.all() and len(edges):
         reliable = reliable_normals(mesh, points, tables.triangles, found.triangle_part, tables.precision)
         turned = found.turned
         facets = reliable.normals if turned is None else np.where(turned[:, None], -reliable.normals, reliable.normals)
         crease_kind = creases(
-            mesh, tables.triangles, reliable.fold, edge_part, ~brep, crease, points, _sizes(found, len(brep))
+            mesh, tables.triangles, reliable.fold, edge_part, ~brep, crease, points, _sizes(found, groups, len(brep))
         )
         chains = merge_chains(chains, crease_chains(points, edges, crease_kind, edge_part))
         kind = kind.copy()
         np.copyto(kind[: len(crease_kind)], crease_kind, where=crease_kind != INTERIOR)
         drawn = np.bincount(edge_part[crease_kind != INTERIOR], minlength=len(brep)).tolist()
-    groups = groups_of(found, brep)
     with plan.deciding():
-        meeting = int(np.count_nonzero(_kernel.boxes_meet(groups.low, groups.high)))
+        meeting = int(np.count_nonzero(groups.meeting()))
     begin = perf_counter()
     if plan.on("intersection search", Facts(meeting=meeting, folded=int(np.count_nonzero(found.folded)))):
         met = find_clashes(found, groups, deflection)
         met = replace(met, through=met.through | self_intersecting_tori(whole, found))
     else:
-        met = no_clashes(len(groups.closed))
+        met = no_clashes(len(groups))
     plan.spent("intersection search", perf_counter() - begin, clash_tests=met.tests)
     true, intersections = _true_surfaces(whole, found), None
     parts = part_reports(
         whole, doubled, found, mesh.offsets, drawn, self_intersecting_parts(met, group_part), meshed.sheets
     )
-    groups = mark_unsound(groups, met.through | found.welded)
+    groups = groups.unsound(met.through | found.welded)
 
     if len(found.loose):
         # Free edges: no triangles; in a group of their own per part.
         vertex_part = np.repeat(np.arange(len(brep), dtype=np.int32), np.diff(tables.point_start))
         owner = vertex_part[found.loose[:, 0]]
-        groups, own_group = add_wires(groups, points, found.loose, owner, tight=False)
+        groups, own_group = groups.with_wires(points, found.loose, owner.astype(np.int64), False)
         edges, edge_part = np.concatenate([edges, found.loose]), np.concatenate([edge_part, owner])
         edge_group = np.concatenate([edge_group, own_group])
     if len(met.edges):
@@ -85,7 +83,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         crossed, intersections = intersection_lines(met, found, tables, true, len(edges), deflection)
         chains = merge_chains(chains, crossed)
         pair = met.group[:, 0].astype(np.int64) << 32 | met.group[:, 1]
-        groups, own_group = add_wires(groups, points, lines, pair, tight=True)
+        groups, own_group = groups.with_wires(points, lines, pair, True)
         edges, edge_part = (
             np.concatenate([edges, lines]),
             np.concatenate([edge_part, group_part[met.group].min(axis=1)]),
@@ -165,11 +163,11 @@ def _facts(whole: PartMeshes) -> MeshFacts:
     return whole.tables.facts()
 
 
-def _sizes(found: MeshScene, parts: int) -> Floats:
+def _sizes(found: MeshScene, groups: Groups, parts: int) -> Floats:
     """(p,) the diagonal of each part's box; 0 where it has no triangles."""
     low, high = np.full((parts, 3), np.inf), np.full((parts, 3), -np.inf)
-    np.minimum.at(low, found.group_part, found.low)
-    np.maximum.at(high, found.group_part, found.high)
+    np.minimum.at(low, found.group_part, groups.low)
+    np.maximum.at(high, found.group_part, groups.high)
     span = np.where(high >= low, high - low, 0.0)
     return np.asarray(np.sqrt((span * span).sum(axis=1)))
 

@@ -14,17 +14,15 @@ both sides, by more than the contact tolerance. Planar faces have no chord error
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from hlr._kernel import MeshScene
+from hlr._kernel import Groups, MeshScene
 from hlr.common.distinct import distinct
 from hlr.common.types import Floats, Ints
-from hlr.request.accuracy import CONTACT, CONTACT_PLANAR
-from hlr.scene.groups import contact_depths
-from hlr.scene.scene import Groups
+from hlr.request.accuracy import CONTACT, CONTACT_PLANAR, MESH_CONTACT
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,8 +53,8 @@ def no_clashes(groups: int) -> Clashes:
 
 def find_clashes(found: MeshScene, groups: Groups, deflection: float) -> Clashes:
     """All intersections between groups, and of groups with themselves. deflection: model units."""
-    touch = contact_depths(groups, CONTACT * deflection, CONTACT_PLANAR * deflection)
-    return Clashes(*found.crossings(touch, deflection))
+    contact = CONTACT * deflection, CONTACT_PLANAR * deflection, MESH_CONTACT
+    return Clashes(*found.crossings(groups, contact, deflection))
 
 
 def self_intersecting_parts(met: Clashes, part_of_group: Ints) -> Ints:
@@ -65,10 +63,3 @@ def self_intersecting_parts(met: Clashes, part_of_group: Ints) -> Ints:
         return np.zeros(0, np.int32)
     a, b = part_of_group[met.group[:, 0]], part_of_group[met.group[:, 1]]
     return np.asarray(distinct(np.concatenate([a[a == b], part_of_group[np.flatnonzero(met.through)]])), np.int32)
-
-
-def mark_unsound(groups: Groups, which: npt.NDArray[np.bool_]) -> Groups:
-    """The groups with those in `which` (g,) marked as self-intersecting: neither sound nor culled."""
-    if not which.any():
-        return groups
-    return replace(groups, sound=groups.sound & ~which, cull=groups.cull & ~which)

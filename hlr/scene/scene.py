@@ -14,33 +14,6 @@ from hlr.source.model import Curves, Surfaces
 
 
 @dataclass(frozen=True, slots=True)
-class Groups:
-    """Surfaces that the visibility pass may treat as one: a B-rep part, or a connected piece of a mesh.
-
-    closed   (g,) bool: every edge is used as often in one direction as in the other
-    cull     (g,) bool: closed, and turned outward: faces turned away need not be looked at
-    inward   (g,) bool: closed, and turned inward, as a cavity is
-    sound    (g,) bool: does not pass through itself, as far as its source tells
-    bare     (g,) bool: a piece of a mesh without B-rep
-    tight    (g,) bool: lines that lie exactly on other groups' triangles
-    planar   (g,) bool: only planar faces: exact, except for the rounding of the file
-    extent   (g,) float64: its thickness; the smallest side of its box if that is less or it is open; model units
-    low, high (g, 3) float64: its box
-    """
-
-    closed: npt.NDArray[np.bool_]
-    cull: npt.NDArray[np.bool_]
-    inward: npt.NDArray[np.bool_]
-    sound: npt.NDArray[np.bool_]
-    bare: npt.NDArray[np.bool_]
-    tight: npt.NDArray[np.bool_]
-    planar: npt.NDArray[np.bool_]
-    extent: Floats
-    low: Floats
-    high: Floats
-
-
-@dataclass(frozen=True, slots=True)
 class TrueSurfaces:
     """Where the triangles of B-rep parts lie on the surfaces of their faces; faces of all parts are numbered together.
 
@@ -166,7 +139,7 @@ class Geometry:
     edge_group: Ints
     edge_kind: npt.NDArray[np.uint8]
     edge_curved: npt.NDArray[np.bool_]
-    groups: Groups
+    groups: _kernel.Groups
     chains: Chains
     parts: tuple[ScenePart, ...]
     true_surfaces: TrueSurfaces | None = None

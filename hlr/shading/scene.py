@@ -34,7 +34,7 @@ def shaded_scene(scene: Geometry, looks: Mapping[str, Appearance], near: Floats 
     """
     normals, corner = corner_normals(scene)
     colours, paint = corner_colors(scene, looks)
-    opened = np.zeros(len(scene.groups.cull), bool)
+    opened = np.zeros(len(scene.groups), bool)
     glass = np.asarray((colours[:, 3] < 1.0)[paint].any(axis=1))
     opened[scene.triangle_group[glass]] = True
     if near is not None:

@@ -18,12 +18,11 @@ VISIBLE, HIDDEN, WITHIN, DIVING = 0, 1, 2, 3
 class Segments:
     """Pieces of mesh edges, as the kernel holds them.
 
-    found: the pieces, sorted by edge and parameter, states numbered as above; mesh, groups: what they were found on
+    found: the pieces, sorted by edge and parameter, states numbered as above; mesh: what they were found on
     """
 
     found: _kernel.Visibility
     mesh: _kernel.Mesh
-    groups: _kernel.Groups
 
 
 def solve(image: Image, plan: Plan, lifted: Floats, arithmetic: str = "exact") -> Segments:
@@ -34,29 +33,19 @@ def solve(image: Image, plan: Plan, lifted: Floats, arithmetic: str = "exact") -
     Raises KeyboardInterrupt within milliseconds of Ctrl-C.
     """
     mesh = image.mesh()
-    groups = _kernel.Groups(
-        image.triangle_group,
-        image.edge_group,
-        cull=plan.cull,
-        sound=plan.sound,
-        delta=np.ascontiguousarray(plan.delta),
-        # The smaller of tolerance and cap counts: a cap of zero switches the tolerance off and keeps the grid.
-        cap=np.ascontiguousarray(plan.cap if plan.contact else np.zeros_like(plan.cap)),
-        tight=image.groups.tight,
-    )
     found = _kernel.visibility(
         mesh,
         np.ascontiguousarray(lifted),
-        groups,
-        plan.role,
+        plan.edges,
         _own_faces(image),
         None if image.silhouettes is None else image.silhouettes.hidden,
+        contact=plan.contact,
         crossings=plan.crossings,
         piercings=plan.piercings,
         pyramid=plan.pyramid,
         arithmetic=arithmetic,
     )
-    return Segments(found, mesh, groups)
+    return Segments(found, mesh)
 
 
 def _own_faces(image: Image) -> _kernel.OwnFaces | None:

@@ -42,19 +42,21 @@ class Kernel:
         role[place[np.append(keys, -1)[place] == mesh.drawn]] = 1
         edge_part = mesh.triangle_part.take(incident.take(offsets[:-1]))
         closed = np.full(mesh.parts, True)
-        groups = _kernel.Groups(
+        plan = _kernel.Plan.of(
             mesh.triangle_part,
             edge_part,
+            role,
             cull=closed,
             sound=closed,
             delta=np.full(mesh.parts, self._contact),
             cap=np.full(mesh.parts, self._contact),
             tight=np.zeros(mesh.parts, bool),
+            drawn=[],
         )
         whole = _kernel.Mesh(points, mesh.triangles, edges, offsets, incident)
         # As in a drawing.
         deep = mesh.parts >= DEEP_GROUPS and len(edges) >= DEEP_EDGES
-        found = _kernel.visibility(whole, points, groups, role, pyramid=deep)
+        found = _kernel.visibility(whole, points, plan, pyramid=deep)
         seconds = time.perf_counter() - start
         self.counters = {name: int(value) for name, value in found.counters.items()}
         self.counters["pieces"] = len(found.edge)

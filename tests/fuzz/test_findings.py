@@ -21,16 +21,18 @@ def states_behind_a_valley(own: float, other: float) -> list[int]:
     points += [[0, 0, -640], [0, 0, 640]]  # the kernel caps the tolerance at a fraction of the depth of all points
     triangles = np.array([[0, 2, 1], [1, 2, 3], [2, 4, 3], [3, 4, 5]], np.int32)
     mesh, wire = mesh_with_wire(np.array(points, float), triangles, (6, 7))
-    groups = _kernel.Groups(
+    plan = _kernel.Plan.of(
         np.ones(4, np.int32),
         np.array([1] * wire + [0], np.int32),
+        np.ones(wire + 1, np.uint8),
         cull=np.zeros(2, bool),
         sound=np.ones(2, bool),
         delta=np.array([own, other]),
         cap=np.full(2, 100.0),
         tight=np.zeros(2, bool),
+        drawn=[],
     )
-    found = _kernel.visibility(mesh, np.array(points, float), groups, np.ones(wire + 1, np.uint8))
+    found = _kernel.visibility(mesh, np.array(points, float), plan)
     return [min(int(state), WITHIN) for edge, state in zip(found.edge, found.state, strict=True) if edge == wire]
 
 
@@ -64,7 +66,17 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
     space = np.column_stack([flat, np.zeros(4)])
     mesh = _kernel.Mesh(space, np.zeros((0, 3), np.int32), edges, np.zeros(5, np.int32), nothing)
     one = np.zeros(1)
-    groups = _kernel.Groups(nothing, np.zeros(4, np.int32), one == 1, one == 1, one, one, one == 1)
+    plan = _kernel.Plan.of(
+        nothing,
+        np.zeros(4, np.int32),
+        np.zeros(4, np.uint8),
+        cull=one == 1,
+        sound=one == 1,
+        delta=one,
+        cap=one,
+        tight=one == 1,
+        drawn=[True] * 6,
+    )
     found = _kernel.Visibility(
         np.array(drawn, np.int32),
         np.zeros(3),
@@ -74,13 +86,11 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
     )
     chains = _kernel.Chains(
         walks,
-        [True] * 6,
+        plan,
         mesh,
-        groups,
         nothing,
         nothing,
         np.zeros(1, bool),
-        np.zeros(4, np.uint8),
         found,
     )
     cut = _kernel.Cut(

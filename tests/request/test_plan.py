@@ -145,32 +145,30 @@ def planned(thing, view="iso", **options):
 def test_which_edges_are_drawn(smooth, seam):
     model = cq.Workplane().cylinder(20, 5).faces(">Z").edges().fillet(1)
     scene, plan, _ = planned(model, smooth=smooth, seam=seam)
-    drawn = {k: bool((plan.role[scene.edge_kind == k] & DRAWN).all()) for k in (0, 1, 2)}
+    drawn = {k: bool((plan.edges.role[scene.edge_kind == k] & DRAWN).all()) for k in (0, 1, 2)}
     assert drawn == {EdgeClass.SHARP: True, EdgeClass.SMOOTH: smooth, EdgeClass.SEAM: seam}
-    assert not (plan.role[scene.edge_kind == INTERIOR] & DRAWN).any()
+    assert not (plan.edges.role[scene.edge_kind == INTERIOR] & DRAWN).any()
     # A sharp edge is drawn anyway; anything else on a curved face may turn out to be an outline.
-    assert not (plan.role[scene.edge_kind == EdgeClass.SHARP] & OUTLINE).any()
+    assert not (plan.edges.role[scene.edge_kind == EdgeClass.SHARP] & OUTLINE).any()
     may = scene.edge_curved & (scene.edge_kind != EdgeClass.SHARP)
-    assert ((plan.role & OUTLINE != 0) == may).all()
+    assert ((plan.edges.role & OUTLINE != 0) == may).all()
 
 
 def test_contact_tolerances():
     model = cq.Assembly().add(cq.Workplane().box(20, 20, 20)).add(cq.Workplane().cylinder(20, 5))
-    scene, plan, tolerances = planned(model)
-    assert plan.delta.tolist() == [tolerances.contact_planar, tolerances.contact]
-    assert (plan.cull == scene.groups.cull).all()
-    assert plan.sound.all()
+    _, plan, tolerances = planned(model)
+    assert plan.edges.delta.tolist() == [tolerances.contact_planar, tolerances.contact]
     # A thin part: no more than half its thickness.
     thin, plan, _ = planned(cq.Workplane().cylinder(0.01, 5))
-    assert plan.cap == pytest.approx(0.5 * thin.groups.extent)
-    assert plan.cap[0] < 0.0051
+    assert plan.edges.cap == pytest.approx(0.5 * thin.groups.extent)
+    assert plan.edges.cap[0] < 0.0051
     # Meshes bring the tolerance of whoever made them: a share of the whole model's size.
     _, plan, _ = planned(parts(box((3000, 4000, 1)), box((1, 1, 1))))
     # At most half the plate's thickness; of the cube, by its volume and area, 0.3 of a side.
-    assert np.minimum(plan.delta, plan.cap) == pytest.approx([0.5, 0.3])
+    assert np.minimum(plan.edges.delta, plan.edges.cap) == pytest.approx([0.5, 0.3])
     _, plan, _ = planned(parts(box((3000, 4000, 100)), box((100, 100, 100))))
-    assert plan.delta == pytest.approx([np.sqrt(3000**2 + 4000**2 + 100**2) / 8000] * 2)
-    assert not plan.sound.any()
+    assert plan.edges.delta == pytest.approx([np.sqrt(3000**2 + 4000**2 + 100**2) / 8000] * 2)
+    assert plan.edges.counts() == (2, 2, 2, 0, 36)
 
 
 def test_depth_is_steeper_close_to_the_eye():
@@ -178,4 +176,4 @@ def test_depth_is_steeper_close_to_the_eye():
     eye = Perspective(eye=(0, -100, 0), target=(0, 0, 0), fov=60.0)
     _, flat, _ = planned(near_far, "front")
     _, plan, _ = planned(near_far, "front", perspective=eye)
-    assert plan.delta / flat.delta == pytest.approx([1, (100 / 300) ** 2])
+    assert plan.edges.delta / flat.edges.delta == pytest.approx([1, (100 / 300) ** 2])

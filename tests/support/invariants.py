@@ -11,7 +11,7 @@ from hlr.tables.line_classes import INTERIOR, EdgeClass
 def check(scene: Scene, *, gaps: bool = False) -> None:
     """Raises AssertionError with the first table that contradicts another one; gaps: chains may have gaps."""
     n, t, e = len(scene.points), len(scene.triangles), len(scene.edges)
-    groups, parts = len(scene.groups.closed), len(scene.parts)
+    groups, parts = len(scene.groups), len(scene.parts)
     assert np.isfinite(scene.points).all(), "points are finite"
     for name, array, count in (
         ("triangle_part", scene.triangle_part, t),

@@ -54,9 +54,18 @@ def pieces(slope, *, own=True, face=0, stretches=((0.0, 1.0),), beside=(UNKNOWN,
         np.zeros(0, np.int32),
     )
     no = np.array([False])
-    groups = _kernel.Groups(np.zeros(1, np.int32), np.zeros(len(edges), np.int32), no, no, np.zeros(1), np.zeros(1), no)
-    role = np.array([1] + [0] * (len(edges) - 1), np.uint8)
-    found = _kernel.visibility(mesh, np.array(points, float), groups, role, told if own else None)
+    plan = _kernel.Plan.of(
+        np.zeros(1, np.int32),
+        np.zeros(len(edges), np.int32),
+        np.array([1] + [0] * (len(edges) - 1), np.uint8),
+        cull=no,
+        sound=no,
+        delta=np.zeros(1),
+        cap=np.zeros(1),
+        tight=no,
+        drawn=[],
+    )
+    found = _kernel.visibility(mesh, np.array(points, float), plan, told if own else None)
     assert set(found.edge.tolist()) == {0}
     t0, t1, state = found.t0.round(6).tolist(), found.t1.round(6).tolist(), found.state.tolist()
     return list(zip(t0, t1, state, strict=True))

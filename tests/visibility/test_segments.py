@@ -23,21 +23,21 @@ ANSWER = SimpleNamespace(
 
 @pytest.fixture
 def solve(monkeypatch):
-    """solve(hidden, contact) on a kernel that always answers the same; .groups, .arguments: what it was told."""
-    groups, told = [], []
-    monkeypatch.setattr(segments._kernel, "Groups", lambda triangle, edge, **columns: groups.append(columns))
-    monkeypatch.setattr(segments._kernel, "visibility", lambda *given, **steps: told.append(given) or ANSWER)
+    """solve(hidden, contact) on a kernel that always answers the same; .arguments, .steps: what it was told."""
+    told, steps = [], []
+    monkeypatch.setattr(
+        segments._kernel, "visibility", lambda *given, **wanted: told.append(given) or steps.append(wanted) or ANSWER
+    )
 
     def call(hidden=None, contact=True):
         silhouettes = None if hidden is None else SimpleNamespace(hidden=hidden, own=OwnFaces.none())
-        image = SimpleNamespace(groups=SimpleNamespace(tight="tight"), edge_group="group", silhouettes=silhouettes)
-        image.triangle_group, image.mesh = "triangle_group", lambda: "mesh"
-        plan = SimpleNamespace(delta=np.array([3, 4]), cap=np.array([5, 6]), contact=contact)
-        for name in ("role", "cull", "sound", "crossings", "piercings", "pyramid"):
+        image = SimpleNamespace(silhouettes=silhouettes, mesh=lambda: "mesh")
+        plan = SimpleNamespace(edges="edges", contact=contact)
+        for name in ("crossings", "piercings", "pyramid"):
             setattr(plan, name, name)
         return segments.solve(image, plan, np.zeros((2, 3)))
 
-    call.groups, call.arguments = groups, told
+    call.arguments, call.steps = told, steps
     return call
 
 
@@ -48,16 +48,17 @@ def test_the_answer_is_handed_on(solve):
     assert found.counters == {"seeds": 7} and found.seconds == {"scan": 0.5}
 
 
-def test_the_cap_counts_only_where_contact_does(solve):
+def test_the_kernel_is_told_the_plan_and_its_steps(solve):
     solve(), solve(contact=False)
-    assert [given["cap"].tolist() for given in solve.groups] == [[5, 6], [0, 0]]
-    assert solve.groups[0]["delta"].tolist() == [3, 4] and solve.groups[0]["tight"] == "tight"
+    assert [given[2] for given in solve.arguments] == ["edges", "edges"]
+    steps = {"crossings": "crossings", "piercings": "piercings", "pyramid": "pyramid", "arithmetic": "exact"}
+    assert solve.steps == [{"contact": True, **steps}, {"contact": False, **steps}]
 
 
 def test_the_kernel_is_told_which_outlines_are_hidden(solve):
     hidden = np.array([False, True])
     solve(hidden), solve(None)
-    assert solve.arguments[0][5] is hidden and solve.arguments[1][5] is None
+    assert solve.arguments[0][4] is hidden and solve.arguments[1][4] is None
 
 
 # A square of two triangles, and a wire half of which lies 1 behind it; the view is along z.
@@ -66,25 +67,30 @@ TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
 WIRE = 5
 
 
-def seen(tight=False, hidden=None, depth=1.5):
+def seen(tight=False, hidden=None, depth=1.5, contact=True):
     """The pieces of the wire and of `hidden` edges: edge and state. tight: the wire runs on the square's surface."""
     mesh, _ = mesh_with_wire(POINTS, TRIANGLES, (4, 5))
-    groups = _kernel.Groups(
+    plan = _kernel.Plan.of(
         np.zeros(2, np.int32),
         np.array([0] * WIRE + [1], np.int32),
+        np.array([0] * WIRE + [1], np.uint8),
         cull=np.zeros(2, bool),
         sound=np.ones(2, bool),
         delta=np.full(2, depth),
         cap=np.full(2, 100.0),
         tight=np.array([False, tight]),
+        drawn=[],
     )
-    role = np.array([0] * WIRE + [1], np.uint8)
-    return _kernel.visibility(mesh, POINTS, groups, role, None, hidden)
+    return _kernel.visibility(mesh, POINTS, plan, None, hidden, contact=contact)
 
 
 def test_states_are_numbered_as_the_kernel_has_them():
     assert (VISIBLE, HIDDEN, WITHIN, DIVING) == (0, 1, 2, 3)
     assert seen().state.tolist() == [WITHIN, VISIBLE] and seen(depth=0.5).state.tolist() == [HIDDEN, VISIBLE]
+
+
+def test_nothing_touches_where_contact_is_off():
+    assert seen(contact=False).state.tolist() == [HIDDEN, VISIBLE]
 
 
 def test_a_line_on_a_surface_is_never_nearly_hidden():

@@ -69,18 +69,19 @@ def visibility(scene: Scene, way: Way, threads: int = 1, arithmetic: str = "exac
         parts = max(scene.parts, default=-1) + 2
         edge_part = np.array([scene.part_of((int(i), int(j))) % parts for i, j in edges], dtype=np.int32)
     mesh = _kernel.Mesh(points, triangles, np.ascontiguousarray(edges), np.ascontiguousarray(offsets), incident)
-    groups = _kernel.Groups(
+    plan = _kernel.Plan.of(
         triangle_part,
         edge_part,
+        np.full(len(edges), DRAWN, dtype=np.uint8),
         cull=np.full(parts, way.trusted),
         sound=np.full(parts, way.trusted),
         delta=np.full(parts, float(way.bias)),
         cap=np.full(parts, float(way.bias)),
         tight=np.zeros(parts, bool),
+        drawn=[],
     )
-    role = np.full(len(edges), DRAWN, dtype=np.uint8)
     with at_most(threads):
-        found = _kernel.visibility(mesh, points, groups, role, arithmetic=arithmetic)
+        found = _kernel.visibility(mesh, points, plan, arithmetic=arithmetic)
     pieces: dict[Edge, list[Piece]] = {}
     # State 3, an edge that dives into a face, counts as within the tolerance.
     for number, t0, t1, state in zip(found.edge, found.t0, found.t1, found.state, strict=True):

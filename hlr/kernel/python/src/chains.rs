@@ -8,7 +8,8 @@ use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, expect_slice_below, flat, rows};
 use super::guard::caught;
-use super::mesh_input::{Groups, Mesh};
+use super::mesh_input::Mesh;
+use super::plan::Plan;
 use super::visibility::Visibility;
 use hlr_linework::lines::candidates::{About, Chains as Found, Surface, add_outlines};
 use hlr_linework::lines::chain::{Straight, chain as chain_edges};
@@ -125,21 +126,19 @@ pub struct Chains(pub(super) Arc<Found>);
 impl Chains {
     /// Walks of the source whose class is drawn, then the contours among the edges that have pieces.
     #[new]
-    #[allow(clippy::too_many_arguments)] // two objects, what is drawn, and columns of triangles and edges
+    #[allow(clippy::too_many_arguments)] // four objects, and columns of triangles and parts
     fn new(
         py: Python<'_>,
         walks: &Walks,
-        drawn: Vec<bool>,
+        plan: &Plan,
         mesh: &Mesh,
-        groups: &Groups,
         triangle_part: PyReadonlyArray1<'_, i32>,
         triangle_face: PyReadonlyArray1<'_, i32>,
         has_faces: PyReadonlyArray1<'_, bool>,
-        role: PyReadonlyArray1<'_, u8>,
         found: &Visibility,
     ) -> PyResult<Chains> {
         caught(py, || {
-            let (reading, of) = (mesh.reading(py)?, groups.reading(py)?);
+            let (reading, of) = (mesh.reading(py)?, plan.reading(py)?);
             let all = reading.slices()?;
             let (edges, triangles) = (all.edges, all.triangles.len());
             let surface = Surface {
@@ -152,8 +151,8 @@ impl Chains {
                 triangle_face: flat(&triangle_face, "triangle_face")?,
                 has_faces: flat(&has_faces, "has_faces")?,
                 facing: &found.facing,
-                role: flat(&role, "role")?,
-                groups: groups.groups.len(),
+                role: &plan.role,
+                groups: plan.groups(true).len(),
             };
             expect_len("triangle_part", surface.triangle_part.len(), triangles)?;
             expect_len("triangle_face", surface.triangle_face.len(), triangles)?;
@@ -163,8 +162,8 @@ impl Chains {
             expect_slice_below("triangle_part", surface.triangle_part, surface.has_faces.len())?;
             expect_below("found", found.edge.iter().copied(), edges.len())?;
             expect_below("edges of walks", walks.edges.iter().copied(), edges.len())?;
-            expect_below("classes of walks", walks.about.iter().map(|a| i32::from(a.kind.0)), drawn.len())?;
-            let mut out = walks.chosen(&drawn);
+            expect_below("classes of walks", walks.about.iter().map(|a| i32::from(a.kind.0)), plan.drawn.len())?;
+            let mut out = walks.chosen(&plan.drawn);
             add_outlines(&surface, &found.edge, &mut out);
             Ok(Chains(Arc::new(out)))
         })

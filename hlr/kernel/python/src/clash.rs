@@ -1,12 +1,13 @@
 //! Binding of `hlr_visibility::clash`: crossings of surfaces.
 
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::arrays::table;
 use super::arrays::{expect_below, expect_len, flat, rows};
+use super::plan::{Groups, depths};
 use super::threads::run;
 use super::view::{Flat, Rows};
 use hlr_mesh::facts::Facts;
@@ -62,16 +63,18 @@ pub fn clashes<'py>(
 /// and a triangle of each group (m, 2); for every group whether it passes through itself; and the number of triangle pairs examined.
 pub type Crossings<'py> = (Rows<'py, f64>, Rows<'py, i32>, Rows<'py, i32>, Rows<'py, i32>, Flat<'py, bool>, u64);
 
-/// touch: contact tolerance of every group of the scene, in model units.
+/// groups: of the scene; contact: depths within which they touch.
 pub fn crossings<'py>(
     py: Python<'py>,
     (tables, facts, scene): (&Tables, &Facts, &Scene),
-    touch: &[f64],
+    groups: &Groups,
+    contact: [f64; 3],
     deflection: f64,
 ) -> PyResult<Crossings<'py>> {
-    expect_len("touch", touch.len(), scene.folded.len())?;
+    let touch = groups.0.contact_depths(depths(contact));
+    expect_len("groups", touch.len(), scene.folded.len())?;
     let found = told(run(py, tables.triangles.len(), |stopped| {
-        let found = crossings::crossings((tables, facts, scene), touch, deflection, stopped)?;
+        let found = crossings::crossings((tables, facts, scene), &touch, deflection, stopped)?;
         Some((!stopped()).then_some(found))
     })?)?;
     Ok((
@@ -82,19 +85,4 @@ pub fn crossings<'py>(
         found.through.into_pyarray(py),
         found.tests,
     ))
-}
-
-/// Whether each box (low, high) comes near another one. Always true where it does; rarely true where it does not.
-#[pyfunction]
-pub fn boxes_meet<'py>(
-    py: Python<'py>,
-    low: PyReadonlyArray2<'py, f64>,
-    high: PyReadonlyArray2<'py, f64>,
-) -> PyResult<Bound<'py, PyArray1<bool>>> {
-    let (low, high) = (rows::<f64, 3>(&low, "low")?, rows::<f64, 3>(&high, "high")?);
-    expect_len("high", high.len(), low.len())?;
-    let Some(meets) = hlr_visibility::clash::boxes_meet::boxes_meet(low, high) else {
-        return Err(PyValueError::new_err("boxes hold coordinates that are not finite"));
-    };
-    Ok(meets.into_pyarray(py))
 }

@@ -3,9 +3,8 @@
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use super::arrays::{check_incidence, expect_len, expect_slice_below, flat, rows};
+use super::arrays::{check_incidence, expect_slice_below, flat, rows};
 use super::guard::caught;
-use hlr_visibility::scan::scene::Group;
 
 /// Triangles and edges, and the triangles at each edge. The arrays remain the caller's.
 #[pyclass(frozen)]
@@ -79,53 +78,5 @@ impl Reading<'_> {
             offsets: flat(&self.offsets, "offsets")?,
             incident: flat(&self.incident, "incident")?,
         })
-    }
-}
-
-/// The group of each triangle and of each edge, and what may be assumed of each group.
-#[pyclass(frozen)]
-pub struct Groups {
-    triangle: Py<PyArray1<i32>>,
-    edge: Py<PyArray1<i32>>,
-    pub groups: Vec<Group>,
-}
-
-#[pymethods]
-impl Groups {
-    #[new]
-    #[allow(clippy::too_many_arguments)] // one argument per column: the stub names them
-    fn new(
-        py: Python<'_>,
-        triangle: Py<PyArray1<i32>>,
-        edge: Py<PyArray1<i32>>,
-        cull: PyReadonlyArray1<'_, bool>,
-        sound: PyReadonlyArray1<'_, bool>,
-        delta: PyReadonlyArray1<'_, f64>,
-        cap: PyReadonlyArray1<'_, f64>,
-        tight: PyReadonlyArray1<'_, bool>,
-    ) -> PyResult<Groups> {
-        caught(py, || {
-            let (cull, sound, tight) = (flat(&cull, "cull")?, flat(&sound, "sound")?, flat(&tight, "tight")?);
-            let (delta, cap) = (flat(&delta, "delta")?, flat(&cap, "cap")?);
-            for (name, found) in
-                [("sound", sound.len()), ("delta", delta.len()), ("cap", cap.len()), ("tight", tight.len())]
-            {
-                expect_len(name, found, cull.len())?;
-            }
-            let group =
-                |g: usize| Group { cull: cull[g], sound: sound[g], delta: delta[g], cap: cap[g], tight: tight[g] };
-            let groups = Groups { triangle, edge, groups: (0..cull.len()).map(group).collect() };
-            let (triangle, edge) = groups.reading(py)?;
-            expect_slice_below("group of triangles", flat(&triangle, "triangle")?, cull.len())?;
-            expect_slice_below("group of edges", flat(&edge, "edge")?, cull.len())?;
-            Ok(groups)
-        })
-    }
-}
-
-impl Groups {
-    /// Groups of triangles, and of edges.
-    pub fn reading<'py>(&self, py: Python<'py>) -> PyResult<(PyReadonlyArray1<'py, i32>, PyReadonlyArray1<'py, i32>)> {
-        Ok((self.triangle.bind(py).try_readonly()?, self.edge.bind(py).try_readonly()?))
     }
 }

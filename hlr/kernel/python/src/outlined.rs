@@ -5,8 +5,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat as slice};
-use super::lines::Camera;
+use super::camera::Camera;
 use super::mesh_input::Mesh;
+use super::plan::Groups;
 use super::silhouette::Outlines;
 use super::true_surfaces::TrueSurfaces;
 use super::view::{Flat, Rows, arrays, flat, rows};
@@ -68,8 +69,7 @@ pub fn outlined<'py>(
     on: &TrueSurfaces,
     columns: Columns<'py>,
     first: PyReadonlyArray1<'py, i32>,
-    closed: PyReadonlyArray1<'py, bool>,
-    near: PyReadonlyArray1<'py, bool>,
+    groups: &Groups,
     convex: bool,
     kinds: Kinds<'py>,
     camera: &Camera,
@@ -79,13 +79,14 @@ pub fn outlined<'py>(
     let (all, (triangle_face, ..)) = (reading.slices()?, places.slices()?);
     let (kind, part, group) = (slice(&columns.0, "kind")?, slice(&columns.1, "part")?, slice(&columns.2, "group")?);
     let (curved, triangle_group) = (slice(&columns.3, "curved")?, slice(&columns.4, "triangle_group")?);
-    let (first, closed, near) = (slice(&first, "first")?, slice(&closed, "closed")?, slice(&near, "near")?);
+    let first = slice(&first, "first")?;
+    // Outlines, moved off their bodies, may lie within another that comes so near.
+    let (closed, near) = (&groups.0.cull[..], &groups.within(lengths[1])?[..]);
     let (border, tangent) = (slice(&kinds.0, "border")?, slice(&kinds.1, "tangent")?);
     for (name, found) in [("kind", kind.len()), ("part", part.len()), ("group", group.len()), ("curved", curved.len())]
     {
         expect_len(name, found, all.edges.len())?;
     }
-    expect_len("near", near.len(), closed.len())?;
     expect_len("triangle_group", triangle_group.len(), all.triangles.len())?;
     expect_len("triangle_face", triangle_face.len(), all.triangles.len())?;
     expect_len("border", border.len(), KINDS)?;

@@ -10,12 +10,14 @@ use rayon::prelude::*;
 use super::arrays::{expect_below, expect_len, flat as slice, rows as table};
 use super::clash::{Crossings, crossings};
 use super::guard::caught;
+use super::plan::Groups;
 use super::threads::{release_later, run};
 use super::view::{Flat, Rows, arrays, flat, matrices, rows};
 use hlr_brep::format::Matrix;
 use hlr_mesh::facts::Facts;
 use hlr_mesh::scene::{Scene, scene};
 use hlr_mesh::tables::{Placed, Tables, TooMany};
+use hlr_visibility::plan::groups::Groups as Columns;
 
 /// Triangles or points that count as one item of `run`: each takes a tenth of a microsecond. For fewer items starting
 /// other threads costs more than the work.
@@ -346,13 +348,6 @@ arrays! { MeshScene {
     edge_kind: flat Flat<'py, u8> = |s| &s.scene.kind;
     edge_curved: flat Flat<'py, bool> = |s| &s.scene.edge_curved;
     group_part: flat Flat<'py, i32> = |s| &s.scene.bodies.part_of;
-    closed: flat Flat<'py, bool> = |s| &s.scene.bodies.closed;
-    cull: flat Flat<'py, bool> = |s| &s.scene.bodies.cull;
-    inward: flat Flat<'py, bool> = |s| &s.scene.bodies.inward;
-    planar: flat Flat<'py, bool> = |s| &s.scene.bodies.planar;
-    extent: flat Flat<'py, f64> = |s| &s.scene.bodies.extent;
-    low: rows Rows<'py, f64> = |s| &s.scene.bodies.low;
-    high: rows Rows<'py, f64> = |s| &s.scene.bodies.high;
     welded: flat Flat<'py, bool> = |s| &s.scene.bodies.welded;
     folded: flat Flat<'py, bool> = |s| &s.scene.folded;
     walk_offsets: flat Flat<'py, i32> = |s| &s.scene.walks.offsets;
@@ -382,8 +377,19 @@ arrays! { MeshScene {
     }
 
     /// Where its surfaces pass through one another.
-    fn crossings<'py>(&self, py: Python<'py>, touch: PyReadonlyArray1<'py, f64>, deflection: f64) -> PyResult<Crossings<'py>> {
-        crossings(py, (&self.tables, &self.facts, &self.scene), slice(&touch, "touch")?, deflection)
+    fn crossings<'py>(
+        &self,
+        py: Python<'py>,
+        groups: &Groups,
+        contact: [f64; 3],
+        deflection: f64,
+    ) -> PyResult<Crossings<'py>> {
+        crossings(py, (&self.tables, &self.facts, &self.scene), groups, contact, deflection)
+    }
+
+    /// Properties of its groups.
+    fn groups(&self) -> Groups {
+        Groups(Arc::new(Columns::of(&self.scene.bodies, &self.tables.brep)))
     }
 
     /// Per part: its counts, as `Report` lists them.

@@ -5,8 +5,8 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat as slice};
+use super::camera::Camera;
 use super::curve_columns::CurveColumns;
-use super::lines::Camera;
 use super::mesh_input::Mesh;
 use super::threads::run;
 use super::true_surfaces::TrueSurfaces;

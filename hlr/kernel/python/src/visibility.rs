@@ -4,11 +4,11 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rayon::prelude::*;
 
 use super::arrays::{expect_ascending, expect_below, expect_len, flat as slice, rows};
 use super::guard::caught;
-use super::mesh_input::{Groups, Mesh};
+use super::mesh_input::Mesh;
+use super::plan::Plan;
 use super::threads::run;
 use super::view::{Flat, arrays, flat};
 use hlr_linework::lines::runs::Piece;
@@ -162,17 +162,17 @@ fn state_of(number: u8) -> State {
 
 /// Visible and hidden pieces of the edges that have a role, and of those that are `hidden`.
 #[pyfunction]
-#[pyo3(signature = (mesh, projected, groups, role, own = None, hidden = None, *, crossings = true, piercings = true,
-    pyramid = false, arithmetic = "exact"))]
+#[pyo3(signature = (mesh, projected, plan, own = None, hidden = None, *, contact = true, crossings = true,
+    piercings = true, pyramid = false, arithmetic = "exact"))]
 #[allow(clippy::too_many_arguments)] // half of them are options
 pub fn visibility<'py>(
     py: Python<'py>,
     mesh: &Mesh,
     projected: PyReadonlyArray2<'py, f64>,
-    groups: &Groups,
-    role: PyReadonlyArray1<'py, u8>,
+    plan: &Plan,
     own: Option<&OwnFaces>,
     hidden: Option<PyReadonlyArray1<'py, bool>>,
+    contact: bool,
     crossings: bool,
     piercings: bool,
     pyramid: bool,
@@ -186,7 +186,7 @@ pub fn visibility<'py>(
     };
     let reading = mesh.reading(py)?;
     let all = reading.slices()?;
-    let of = groups.reading(py)?;
+    let of = plan.reading(py)?;
     let scene = Scene {
         points: rows::<f64, 3>(&projected, "projected")?,
         triangles: all.triangles,
@@ -195,8 +195,8 @@ pub fn visibility<'py>(
         offsets: all.offsets,
         incident: all.incident,
         edge_group: slice(&of.1, "edge")?,
-        role: slice(&role, "role")?,
-        groups: &groups.groups,
+        role: &plan.role,
+        groups: plan.groups(contact),
     };
     expect_len("projected", scene.points.len(), all.points.len())?;
     expect_len("groups of triangles", scene.triangle_group.len(), all.triangles.len())?;
@@ -218,7 +218,7 @@ pub fn visibility<'py>(
             Refusal::Stopped => PyKeyboardInterrupt::new_err("stopped"),
         },
     )?;
-    let on_surface = |edge: u32| groups.groups[scene.edge_group[edge as usize] as usize].tight;
+    let on_surface = |edge: u32| scene.groups[scene.edge_group[edge as usize] as usize].tight;
     let (drawn, contacts) = as_drawn(&outcome.pieces, on_surface, hidden);
     let piece = |p: &hlr_visibility::scan::invisibility::Piece| Piece {
         start: p.segment.start,
@@ -278,21 +278,4 @@ fn counters<'py>(py: Python<'py>, c: &Counters) -> PyResult<Bound<'py, PyDict>> 
         out.set_item(name, value)?;
     }
     Ok(out)
-}
-
-/// (e,) of each edge roles[256 * curved + kind].
-#[pyfunction]
-pub fn edge_roles<'py>(
-    py: Python<'py>,
-    curved: PyReadonlyArray1<'py, bool>,
-    kind: PyReadonlyArray1<'py, u8>,
-    roles: PyReadonlyArray1<'py, u8>,
-) -> PyResult<Bound<'py, PyArray1<u8>>> {
-    let (curved, kind, roles) = (slice(&curved, "curved")?, slice(&kind, "kind")?, slice(&roles, "roles")?);
-    expect_len("kind", kind.len(), curved.len())?;
-    expect_len("roles", roles.len(), 512)?;
-    let role = |(&curved, &kind): (&bool, &u8)| roles[usize::from(curved) << 8 | usize::from(kind)];
-    let found: Vec<u8> =
-        run(py, kind.len() / 64, |_| curved.par_iter().with_min_len(1 << 16).zip(kind).map(role).collect())?;
-    Ok(found.into_pyarray(py))
 }

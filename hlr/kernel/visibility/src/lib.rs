@@ -4,4 +4,5 @@
 
 pub mod boxes;
 pub mod clash;
+pub mod plan;
 pub mod scan;

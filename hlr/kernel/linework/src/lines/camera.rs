@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::View;
 use crate::fit::plane::Vec2;
 use crate::fit::project::Projection;
+use hlr_visibility::plan::contact::Look;
 
 type Vec3 = [f64; 3];
 
@@ -22,6 +23,21 @@ pub struct Camera {
 
 fn dot(p: &Vec3, v: &Vec3) -> f64 {
     p[0] * v[0] + p[1] * v[1] + p[2] * v[2]
+}
+
+impl Look for Camera {
+    fn distance(&self) -> Option<f64> {
+        self.eye.map(|(_, distance)| distance)
+    }
+
+    fn ahead(&self, p: &Vec3) -> f64 {
+        let eye = self.eye.map_or([0.0; 3], |(eye, _)| eye);
+        -dot(&[p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]], &self.direction)
+    }
+
+    fn image(&self, p: &Vec3) -> Vec3 {
+        Camera::image(self, p)
+    }
 }
 
 impl Camera {

@@ -4,8 +4,10 @@
 //! `morton`  boxes sorted along a curve that keeps neighbours together
 //! `tree`    the hierarchy: which boxes overlap a given one
 //! `pairs`   the hierarchy against itself or another: which pairs of boxes overlap
+//! `meeting` which boxes of a few overlap others
 
 pub mod aabb;
+pub mod meeting;
 mod morton;
 pub mod pairs;
 pub mod tree;

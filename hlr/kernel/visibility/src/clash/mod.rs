@@ -1,7 +1,6 @@
 //! Where surfaces pass through one another: the intersection lines of clashing solids, and whether a solid passes
 //! through itself.
 //!
-//!    `boxes_meet`    whether there is anything to search at all
 //! 0. `surfaces`      the triangles in their groups, on the grid
 //! 1. `search`        which triangles may meet: overlapping boxes of groups, then of triangles (`boxes`)
 //!    `height_field`  pieces of a surface in which no two triangles meet, recognised by their borders
@@ -23,7 +22,6 @@
 //! surfaces by less than the contact tolerance.
 
 pub mod apart;
-pub mod boxes_meet;
 pub mod chord_ends;
 pub mod contacts;
 pub mod crossings;

@@ -1,16 +1,15 @@
 //! Which boxes come near another one: where none does, no search is needed.
 
-use super::reach::Vec3;
-use crate::boxes::aabb::{Aabb, Item};
-use crate::boxes::tree::Tree;
+use super::aabb::{Aabb, Item};
+use super::tree::Tree;
 use hlr_exact::snap::Grid;
 
 /// Per box (low, high) whether it comes near another one: always true where it does, rarely where it does not. A box
 /// that is not finite is near none. None where they lie too far apart for a grid.
-pub fn boxes_meet(low: &[Vec3], high: &[Vec3]) -> Option<Vec<bool>> {
+pub fn boxes_meet(low: &[[f64; 3]], high: &[[f64; 3]]) -> Option<Vec<bool>> {
     let finite = |i: &usize| low[*i].iter().chain(&high[*i]).all(|c| c.is_finite());
     let used: Vec<usize> = (0..low.len()).filter(finite).collect();
-    let corners: Vec<Vec3> = used.iter().flat_map(|&i| [low[i], high[i]]).collect();
+    let corners: Vec<[f64; 3]> = used.iter().flat_map(|&i| [low[i], high[i]]).collect();
     let grid = Grid::around(&corners)?.uniform();
     // One step wider on each side, to cover the rounding.
     let boxes: Vec<Aabb> = used

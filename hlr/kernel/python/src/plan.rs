@@ -1,0 +1,262 @@
+//! Binding of `hlr_visibility::plan`: groups of a scene, and what the visibility pass is told of them and of edges.
+
+use std::sync::Arc;
+
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use super::arrays::{expect_below, expect_len, expect_slice_below, flat as slice, rows as table};
+use super::camera::Camera;
+use super::guard::caught;
+use super::threads::run;
+use super::view::{Flat, Rows, arrays, flat, rows};
+use hlr_linework::lines::camera::Camera as PaperCamera;
+use hlr_visibility::plan::contact::{Contact, coming_near};
+use hlr_visibility::plan::groups::{Depths, Groups as Columns};
+use hlr_visibility::plan::roles::{Counts, Roles, counts, edge_roles, told};
+use hlr_visibility::scan::scene::Group;
+
+/// Properties of the groups of a scene.
+#[pyclass(frozen)]
+pub struct Groups(pub(super) Arc<Columns>);
+
+/// Groups with edges that have no triangles, and the group of each of these edges.
+type WithWires<'py> = (Groups, Bound<'py, PyArray1<i32>>);
+
+arrays! { Groups {
+    closed: flat Flat<'py, bool> = |g| &g.0.closed;
+    cull: flat Flat<'py, bool> = |g| &g.0.cull;
+    inward: flat Flat<'py, bool> = |g| &g.0.inward;
+    sound: flat Flat<'py, bool> = |g| &g.0.sound;
+    bare: flat Flat<'py, bool> = |g| &g.0.bare;
+    tight: flat Flat<'py, bool> = |g| &g.0.tight;
+    planar: flat Flat<'py, bool> = |g| &g.0.planar;
+    extent: flat Flat<'py, f64> = |g| &g.0.extent;
+    low: rows Rows<'py, f64> = |g| &g.0.low;
+    high: rows Rows<'py, f64> = |g| &g.0.high;
+}
+
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    /// These groups, and an open one per distinct owner of edges without triangles.
+    fn with_wires<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray2<'py, f64>,
+        wires: PyReadonlyArray2<'py, i32>,
+        owner: PyReadonlyArray1<'py, i64>,
+        tight: bool,
+    ) -> PyResult<WithWires<'py>> {
+        let (points, wires) = (table::<f64, 3>(&points, "points")?, table::<i32, 2>(&wires, "wires")?);
+        let owner = slice(&owner, "owner")?;
+        expect_len("owner", owner.len(), wires.len())?;
+        expect_below("wires", wires.as_flattened().iter().copied(), points.len())?;
+        let (groups, own) = self.0.with_wires(points, wires, owner, tight);
+        Ok((Groups(Arc::new(groups)), own.into_pyarray(py)))
+    }
+
+    /// These groups after triangles of some were taken away.
+    fn opened(&self, which: PyReadonlyArray1<'_, bool>) -> PyResult<Groups> {
+        self.changed(&which, Columns::opened)
+    }
+
+    /// These groups where some pass through themselves.
+    fn unsound(&self, which: PyReadonlyArray1<'_, bool>) -> PyResult<Groups> {
+        self.changed(&which, Columns::unsound)
+    }
+
+    /// Whether the box of each group comes near that of another.
+    fn meeting<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<bool>>> {
+        Ok(self.within(0.0)?.into_pyarray(py))
+    }
+}
+
+impl Groups {
+    fn changed(
+        &self,
+        which: &PyReadonlyArray1<'_, bool>,
+        change: impl Fn(&Columns, &[bool]) -> Columns,
+    ) -> PyResult<Groups> {
+        let which = slice(which, "which")?;
+        expect_len("which", which.len(), self.0.len())?;
+        let same = || self.0.clone();
+        Ok(Groups(if which.contains(&true) { Arc::new(change(&self.0, which)) } else { same() }))
+    }
+
+    /// Whether the box of each group, `reach` wider on all sides, comes near that of another.
+    pub(super) fn within(&self, reach: f64) -> PyResult<Vec<bool>> {
+        self.0.meeting(reach).ok_or_else(not_finite)
+    }
+}
+
+fn not_finite() -> PyErr {
+    PyValueError::new_err("boxes hold coordinates that are not finite")
+}
+
+/// Contact depths: of curved and of planar groups, in model units; of meshes without B-rep, as a share of the scene.
+pub(super) fn depths([curved, planar, share]: [f64; 3]) -> Depths {
+    Depths { curved, planar, share }
+}
+
+/// What decided the groups of a plan, where it was made for a view.
+struct View {
+    groups: Arc<Columns>,
+    camera: PaperCamera,
+    contact: Contact,
+    counts: Counts,
+}
+
+/// What the visibility pass is told of edges and groups.
+#[pyclass(frozen)]
+pub struct Plan {
+    triangle: Py<PyArray1<i32>>,
+    edge: Py<PyArray1<i32>>,
+    pub(super) role: Vec<u8>,
+    pub(super) drawn: Vec<bool>,
+    /// Of each group; and where nothing touches.
+    touching: Vec<Group>,
+    apart: Vec<Group>,
+    view: Option<View>,
+}
+
+arrays! { Plan {
+    role: flat Flat<'py, u8> = |p| &p.role;
+}
+
+    /// Decides for a view of a scene.
+    #[new]
+    #[allow(clippy::too_many_arguments)] // groups, columns of edges, their classes, and the view
+    fn new(
+        py: Python<'_>,
+        groups: &Groups,
+        triangle: Py<PyArray1<i32>>,
+        edge: Py<PyArray1<i32>>,
+        curved: PyReadonlyArray1<'_, bool>,
+        kind: PyReadonlyArray1<'_, u8>,
+        hidden: Option<PyReadonlyArray1<'_, bool>>,
+        roles: PyReadonlyArray2<'_, u8>,
+        drawn: Vec<bool>,
+        camera: &Camera,
+        contact: [f64; 3],
+        rounding: f64,
+    ) -> PyResult<Plan> {
+        caught(py, || {
+            let (curved, kind) = (slice(&curved, "curved")?, slice(&kind, "kind")?);
+            let hidden = hidden.as_ref().map_or(Ok(&[][..]), |hidden| slice(hidden, "hidden"))?;
+            expect_len("kind", kind.len(), curved.len())?;
+            if !hidden.is_empty() {
+                expect_len("hidden", hidden.len(), curved.len())?;
+            }
+            let classes = table::<u8, 256>(&roles, "roles")?;
+            let roles: &Roles = classes.try_into().map_err(|_| PyValueError::new_err("roles must be a (2, 256) array"))?;
+            let role = run(py, kind.len() / 64, |_| edge_roles(curved, kind, roles, hidden))?;
+            let (groups, camera) = (groups.0.clone(), camera.0);
+            let of = triangle.bind(py).try_readonly()?;
+            let of = slice(&of, "group of triangles")?;
+            expect_slice_below("group of triangles", of, groups.len())?;
+            let counts = counts(&groups, of, &role);
+            let contact = Contact::of(&groups, &camera, depths(contact), rounding);
+            let told = told(&groups, &contact);
+            Plan::checked(py, triangle, edge, role, drawn, told, Some(View { groups, camera, contact, counts }))
+        })
+    }
+
+    /// A plan that is decided already.
+    #[staticmethod]
+    #[pyo3(signature = (triangle, edge, role, *, cull, sound, delta, cap, tight, drawn))]
+    #[allow(clippy::too_many_arguments)] // one argument per column: the stub names them
+    fn of(
+        py: Python<'_>,
+        triangle: Py<PyArray1<i32>>,
+        edge: Py<PyArray1<i32>>,
+        role: PyReadonlyArray1<'_, u8>,
+        cull: PyReadonlyArray1<'_, bool>,
+        sound: PyReadonlyArray1<'_, bool>,
+        delta: PyReadonlyArray1<'_, f64>,
+        cap: PyReadonlyArray1<'_, f64>,
+        tight: PyReadonlyArray1<'_, bool>,
+        drawn: Vec<bool>,
+    ) -> PyResult<Plan> {
+        caught(py, || {
+            let (cull, sound, tight) = (slice(&cull, "cull")?, slice(&sound, "sound")?, slice(&tight, "tight")?);
+            let (delta, cap) = (slice(&delta, "delta")?, slice(&cap, "cap")?);
+            for (name, found) in
+                [("sound", sound.len()), ("delta", delta.len()), ("cap", cap.len()), ("tight", tight.len())]
+            {
+                expect_len(name, found, cull.len())?;
+            }
+            let group =
+                |g: usize| Group { cull: cull[g], sound: sound[g], delta: delta[g], cap: cap[g], tight: tight[g] };
+            let told = (0..cull.len()).map(group).collect();
+            Plan::checked(py, triangle, edge, slice(&role, "role")?.to_vec(), drawn, told, None)
+        })
+    }
+
+    /// Per group: its contact tolerance, in depth units of the view.
+    #[getter]
+    fn delta<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |group| group.delta)
+    }
+
+    /// Per group: the upper limit of the tolerance, in depth units of the view.
+    #[getter]
+    fn cap<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |group| group.cap)
+    }
+
+    /// How many groups come within the contact tolerance of another.
+    fn coming_near(&self, lift: f64, spare: f64) -> PyResult<usize> {
+        let view = self.of_view()?;
+        coming_near(&view.groups, &view.camera, &view.contact.delta, spare, lift).ok_or_else(not_finite)
+    }
+
+    /// Groups with triangles, groups culled, groups that may pass through themselves, those of them that are not culled,
+    /// and edges with a role.
+    fn counts(&self) -> PyResult<(usize, usize, usize, usize, usize)> {
+        let c = self.of_view()?.counts;
+        Ok((c.faced, c.culled, c.unsound, c.unsound_not_culled, c.edges))
+    }
+}
+
+impl Plan {
+    #[allow(clippy::too_many_arguments)]
+    fn checked(
+        py: Python<'_>,
+        triangle: Py<PyArray1<i32>>,
+        edge: Py<PyArray1<i32>>,
+        role: Vec<u8>,
+        drawn: Vec<bool>,
+        touching: Vec<Group>,
+        view: Option<View>,
+    ) -> PyResult<Plan> {
+        let apart = touching.iter().map(|group| Group { cap: 0.0, ..*group }).collect();
+        let plan = Plan { triangle, edge, role, drawn, touching, apart, view };
+        let of = plan.reading(py)?;
+        expect_slice_below("group of triangles", slice(&of.0, "triangle")?, plan.touching.len())?;
+        let edges = slice(&of.1, "edge")?;
+        expect_slice_below("group of edges", edges, plan.touching.len())?;
+        expect_len("role", plan.role.len(), edges.len())?;
+        Ok(plan)
+    }
+
+    /// Groups of triangles, and of edges.
+    pub fn reading<'py>(&self, py: Python<'py>) -> PyResult<(PyReadonlyArray1<'py, i32>, PyReadonlyArray1<'py, i32>)> {
+        Ok((self.triangle.bind(py).try_readonly()?, self.edge.bind(py).try_readonly()?))
+    }
+
+    /// contact: whether surfaces touch within a tolerance. A cap of zero switches it off and keeps the grid.
+    pub(super) fn groups(&self, contact: bool) -> &[Group] {
+        if contact { &self.touching } else { &self.apart }
+    }
+
+    fn of_view(&self) -> PyResult<&View> {
+        self.view.as_ref().ok_or_else(|| PyValueError::new_err("this plan was not decided for a view"))
+    }
+
+    fn column<'py, T: numpy::Element>(&self, py: Python<'py>, of: impl Fn(&Group) -> T) -> Bound<'py, PyArray1<T>> {
+        self.touching.iter().map(of).collect::<Vec<T>>().into_pyarray(py)
+    }
+}
