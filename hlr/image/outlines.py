@@ -57,10 +57,11 @@ def outlined(image: Image, planner: Planner) -> Image:
 def _with_outlines(image: Image, surfaces: TrueSurfaces) -> Image:
     face = image.all_faces()
     deflection = image.placement.tolerances.deflection
-    on, found = _traced(image, surfaces, face, OUTLINE_CHORD * deflection)
+    mesh = image.mesh()
+    on, found = _traced(image, mesh, surfaces, face, OUTLINE_CHORD * deflection)
     shown = _kernel.outlined(
         found,
-        image.mesh(),
+        mesh,
         on,
         (image.edge_kind, image.edge_part, image.edge_group, image.edge_curved, image.triangle_group),
         surfaces.first,
@@ -108,13 +109,14 @@ def _with_outlines(image: Image, surfaces: TrueSurfaces) -> Image:
 
 def _traced(
     image: Image,
+    mesh: _kernel.Mesh,
     surfaces: TrueSurfaces,
     face: Ints,
     chord: float,
 ) -> tuple[_kernel.TrueSurfaces, _kernel.Outlines]:
     """The surfaces as the kernel takes them, and the outlines that it traces on them.
 
-    face (t,): numbered through all parts; chord: chord error, model units
+    mesh: of the image; face (t,): numbered through all parts; chord: chord error, model units
     """
     wanted = surfaces.curved.copy()
     # Planar faces that a curved face joins smoothly are traced as well: the curved face may fold over against them.
@@ -133,7 +135,7 @@ def _traced(
     source[image.chains.edges] = np.repeat(of_chain, count)
     on = surfaces.of(wanted, face)
     smooth = goes_on()[image.edge_kind]
-    return on, _kernel.silhouettes(image.mesh(), on, smooth, source, image.camera.scaled(1.0), chord)
+    return on, _kernel.silhouettes(mesh, on, smooth, source, image.camera.scaled(1.0), chord)
 
 
 def _walks(shown: _kernel.Outlined, edges: int) -> Chains:
