@@ -39,7 +39,7 @@ class Comparison:
     model_side     which side hlr drew of a model, where the other is a drawing of it: "first" or "second"; else None
     badly_laid     share of the lines that lie on one another, 0 to 1, where that is so little that nothing was judged
     left_out       what of each file is no line of its drawing, counted
-    view_found     of a model, where it was not said: the view that the other side shows
+    view_found     of a model, where it was not said: the view that the other side shows; of two models the usual one
     findings       the differences with their pieces, from which the overlay is drawn
     lines          the pieces of the second drawing, as it was moved
 

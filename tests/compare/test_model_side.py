@@ -95,6 +95,12 @@ def test_objects_are_models_too(model):
     assert compare(step(), step(), view="top").same
 
 
+def test_two_models_are_seen_in_the_usual_view_and_it_is_named(model):
+    found = compare(model, model)
+    assert found.same and found.view_found == "iso" and found.summary.endswith("; the view is iso")
+    assert compare(model, model, view="top").view_found is None
+
+
 @pytest.mark.parametrize("hidden", [True, False])
 def test_sorts_of_lines_that_the_other_has_none_of_are_left_out(hidden, model, tmp_path):
     drawn = hlr.draw(model, view="iso", scale=1, hidden=True)

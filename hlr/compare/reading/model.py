@@ -123,7 +123,7 @@ def side_of_model(
     side = side_of(drawing, tolerance_mm)
     name = Path(given).name if isinstance(given, str | os.PathLike) else source.name
     shown = drawing.view.name if stated is None else stated.name
-    about = replace(side.about, view_found=shown if view is None and other is not None else None)
+    about = replace(side.about, view_found=shown if view is None else None)
     return replace(side, title=f"{name}, {shown}", about=about, behind=Behind(source, drawing, to_suit=True))
 
 
