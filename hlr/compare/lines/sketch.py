@@ -64,7 +64,7 @@ class About:
     foreign   whether another program drew it
     left_out  what of the file is no line of the drawing, counted
     stated    the view that it states; None: it states none
-    view_found  the view of a model, where it was not said: the one that the other side shows, of two models the usual one
+    view_found  the view of a model, where it was not said: as the other side shows it, of two models the usual one
     """
 
     parts: tuple[str, ...]
