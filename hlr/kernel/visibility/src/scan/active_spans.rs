@@ -19,7 +19,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use super::bands::{Bands, MOST_BANDS, clipped_x, y_range};
+use super::bands::{Bands, MOST_BANDS, Slanted};
 use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
 use hlr_exact::Point;
@@ -111,15 +111,12 @@ impl Seeds {
 }
 
 /// x range of the part of a triangle between y0 and y1; conservative, never too small.
-fn within([p, q, r]: [&Point; 3], y0: i64, y1: i64) -> (i32, i32) {
+fn within(sides: &[Slanted; 3], y0: i64, y1: i64) -> (i32, i32) {
     let (mut left, mut right) = (i32::MAX, i32::MIN);
-    for (a, b) in [(p, q), (q, r), (r, p)] {
-        let (low, high) = y_range(a, b);
-        if i64::from(low) <= y1 && i64::from(high) >= y0 {
-            let (from, to) = clipped_x(a, b, y0, y1);
-            left = left.min(from);
-            right = right.max(to);
-        }
+    for side in sides.iter().filter(|side| side.meets(y0, y1)) {
+        let (from, to) = side.between(y0, y1);
+        left = left.min(from);
+        right = right.max(to);
     }
     (left, right)
 }
@@ -211,14 +208,15 @@ impl Stops {
         }
         let bands: Range<usize> = self.bands.of(least[1])..self.bands.of(most[1]) + 1;
         // A low polygon is as wide in all its bands, or nearly so.
-        let low = bands.len() <= 2;
+        let slanted = (bands.len() > 2).then(|| [(p, q), (q, r), (r, p)].map(|(a, b)| Slanted::new(a, b)));
         let mut cover = None;
         for band in bands {
-            let (left, right) = if low {
-                (least[0], most[0])
-            } else {
-                let (y0, y1) = self.bands.limits(band);
-                within([p, q, r], y0, y1)
+            let (left, right) = match &slanted {
+                Some(sides) => {
+                    let (y0, y1) = self.bands.limits(band);
+                    within(sides, y0, y1)
+                }
+                None => (least[0], most[0]),
             };
             if left > right {
                 continue;

@@ -73,23 +73,54 @@ impl Bands {
     }
 }
 
+/// An edge that is cut into bands.
+#[derive(Clone, Copy, Debug)]
+pub struct Slanted {
+    /// Lower and upper end: x, y.
+    low: (i32, i64),
+    high: (i32, i64),
+    /// x per y.
+    slope: f64,
+}
+
+impl Slanted {
+    #[inline]
+    pub fn new(a: &Point, b: &Point) -> Slanted {
+        let (low, high) = if a[1] <= b[1] { (a, b) } else { (b, a) };
+        let (low, high) = ((low[0], i64::from(low[1])), (high[0], i64::from(high[1])));
+        Slanted { low, high, slope: (f64::from(high.0) - f64::from(low.0)) / (high.1 - low.1) as f64 }
+    }
+
+    /// Whether some of it lies between y0 and y1.
+    #[inline]
+    pub fn meets(&self, y0: i64, y1: i64) -> bool {
+        self.low.1 <= y1 && self.high.1 >= y0
+    }
+
+    /// x range of the part between y0 and y1; conservative, never too small.
+    #[inline]
+    pub fn between(&self, y0: i64, y1: i64) -> (i32, i32) {
+        let ((xlow, ylow), (xhigh, yhigh)) = (self.low, self.high);
+        let (left, right) = (xlow.min(xhigh), xlow.max(xhigh));
+        if (ylow >= y0 && yhigh <= y1) || left == right {
+            return (left, right);
+        }
+        let at = |y: i64| f64::from(xlow) + (y - ylow) as f64 * self.slope;
+        let start = if ylow < y0 { at(y0) } else { f64::from(xlow) };
+        let end = if yhigh > y1 { at(y1) } else { f64::from(xhigh) };
+        // The products are off by less than one unit; two are conservative.
+        (left.max((start.min(end) - 2.0) as i32), right.min((start.max(end) + 2.0) as i32))
+    }
+}
+
 /// x range of the part of a -> b between y0 and y1; conservative, never too small.
 #[inline]
 pub fn clipped_x(a: &Point, b: &Point, y0: i64, y1: i64) -> (i32, i32) {
-    let (low, high) = if a[1] <= b[1] { (a, b) } else { (b, a) };
-    let (mut left, mut right) = (a[0].min(b[0]), a[0].max(b[0]));
-    let (ylow, yhigh) = (i64::from(low[1]), i64::from(high[1]));
-    if (ylow >= y0 && yhigh <= y1) || left == right {
-        return (left, right);
+    let (low, high) = y_range(a, b);
+    if i64::from(low) >= y0 && i64::from(high) <= y1 {
+        return (a[0].min(b[0]), a[0].max(b[0]));
     }
-    let slope = (f64::from(high[0]) - f64::from(low[0])) / (yhigh - ylow) as f64;
-    let at = |y: i64| f64::from(low[0]) + (y - ylow) as f64 * slope;
-    let start = if ylow < y0 { at(y0) } else { f64::from(low[0]) };
-    let end = if yhigh > y1 { at(y1) } else { f64::from(high[0]) };
-    // The products are off by less than one unit; two are conservative.
-    left = left.max((start.min(end) - 2.0) as i32);
-    right = right.min((start.max(end) + 2.0) as i32);
-    (left, right)
+    Slanted::new(a, b).between(y0, y1)
 }
 
 /// Lower and upper y of an edge.
