@@ -109,10 +109,17 @@ class _Face:
         return best
 
     def _search(self, start: Floats, q: Floats, way: Floats, beside: bool) -> Floats:
-        """(n,) the least errors at edge-on points that Newton's method reaches; steps that make it worse are halved."""
+        """(n,) the least errors at edge-on points that Newton's method reaches; steps that make it worse are halved.
+
+        Worse is what would take a longer step still, by the derivatives before the step (P. Deuflhard, "Newton Methods
+        for Nonlinear Problems", 2004: natural monotonicity). Sizes of g and h themselves do not compare: where two
+        branches of an outline meet, g grows only with the product of the distances from both.
+        """
         n = len(q)
-        best, least, going = np.full(n, np.inf), np.full(n, np.inf), np.arange(n)
+        best, going = np.full(n, np.inf), np.arange(n)
         at, step = start.copy(), np.zeros((n, 2))
+        # Of the last place that was no worse: derivatives, lengths of du and dv, and the length of the step from there.
+        before, speed, least = np.full((n, 2, 2), np.nan), np.ones((n, 2)), np.full(n, np.inf)
         for _ in range(ITERATIONS):
             if len(going) == 0:
                 break
@@ -134,14 +141,18 @@ class _Face:
                 found = np.where(np.abs(g) < EDGE_ON, np.sqrt(dot(off, off)), np.inf)
                 best[going] = np.fmin(best[going], found)
                 wrong = np.sqrt(dot(value, value)) if beside else np.abs(g)
-                astray = wrong > least[going]
+                still = _least(before[going], value, beside) * speed[going]
+                astray = np.sqrt(dot(still, still)) > least[going]
                 new = _least(rows, value, beside)
+                speeds = np.sqrt(np.stack([dot(su, su), dot(sv, sv)], axis=1))
                 moved = np.sqrt(dot(su * new[:, :1] + sv * new[:, 1:], su * new[:, :1] + sv * new[:, 1:]))
+                full = np.sqrt(dot(new * speeds, new * speeds))
                 new *= np.minimum(1.0, self._most / moved)[:, None]
             # Go back by half of the last step, or make a new step.
             step[going] = np.where(astray[:, None], 0.5 * step[going], new)
             move = np.where(astray[:, None], step[going], -step[going])
-            least[going] = np.where(astray, least[going], wrong)
+            kept = going[~astray]
+            before[kept], speed[kept], least[kept] = rows[~astray], speeds[~astray], full[~astray]
             settled = ~np.isfinite(moved) | (~astray & ((wrong < SETTLED) | (moved < SETTLED * self._most)))
             going, move = going[~settled], move[~settled]
             at[going] += move
