@@ -1,9 +1,11 @@
 """The error of an outline beside the place where two of its branches meet.
 
-Of a disc with rounded rims, seen from the side, each rounding is edge-on along the quarter of a circle at either end, and
-along the circle in which it meets the flat: a straight line in the image, tangent to both quarters. There N . V vanishes
-with its derivatives.
+Of a disc with rounded rims, seen from the side, each rounding is edge-on along the quarter of a circle at either end,
+and along the circle in which it meets the flat: a straight line in the image, tangent to both quarters. There N . V
+vanishes with its derivatives.
 """
+
+from dataclasses import replace
 
 import cadquery as cq
 import numpy as np
@@ -54,3 +56,23 @@ def test_where_branches_meet_the_error_is_the_distance_to_the_outline(disc, view
 def test_an_outline_beside_it_is_off_by_as_much(disc, shift):
     off, true = measured_and_true(disc, "front", shift)
     assert off.max() == pytest.approx(true.max(), abs=1e-3) == pytest.approx(shift, abs=0.01)
+
+
+def test_where_the_surface_is_nearly_edge_on_over_a_long_way_the_search_goes_on():
+    """A wall whose slope is least 4 mm behind its outline, but not 0: from there, Newton's method has nowhere to go."""
+    growth = np.polynomial.Polynomial([4.0, -1.0]) * np.polynomial.Polynomial([0.16, 0.0, 1.0]) * 1e-3
+    height = growth.integ()
+    across = np.linspace(-3.0, 6.0, 91)
+    profile = [(10.0 + float(height(z)), float(z)) for z in across]
+    body = cq.Workplane("YZ").moveTo(0.0, -3.0).lineTo(*profile[0]).spline(profile[1:], includeCurrent=True)
+    model = open_source(body.lineTo(0.0, 6.0).close().extrude(20.0))
+    drawing = hlr.draw(model, "top", accuracy=0.05, **AT_SIZE)
+    outlines = [line for line in drawing.lines if line.kind == "outline"]
+    assert len(outlines) == 1
+    assert outlines[0].points3[:, 1:] == pytest.approx(np.array([[10.0 + height(4.0), 4.0]] * 2), abs=1e-3)
+    # The same ink, said to lie where the slope is least.
+    farther = replace(outlines[0], points3=outlines[0].points3 - (0.0, 0.0, 4.0))
+    beside = replace(drawing, lines=tuple(farther if x is outlines[0] else x for x in drawing.lines))
+    for of in (drawing, beside):
+        off, _ = outline_errors(model, of, written(of), Paper.of(of), 10**6)
+        assert len(off) > 3 and off.max() < 1e-3

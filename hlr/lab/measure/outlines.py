@@ -35,6 +35,8 @@ from hlr.request.accuracy import MEASURED_RETRY, MEASURED_STEP
 ITERATIONS = 30
 EDGE_ON = 1e-9
 """|N . V| of unit vectors below which a point counts as edge-on."""
+FARTHER = tuple(side * 2**k for k in range(7) for side in (1, -1))
+"""Where a search begins anew, in longest steps along the line of sight toward the viewer."""
 SETTLED = 1e-13
 """Steps and remainders below which a search has ended, in longest steps and accuracies."""
 
@@ -106,7 +108,24 @@ class _Face:
         best = self._search(at, q, way, True)
         again = np.flatnonzero(best > self._enough)
         best[again] = np.minimum(best[again], self._search(at[again], q[again], way[again], False))
+        # Where the surface is nearly edge-on over a long way, |g| may be least at a place that is none. Search from
+        # farther along the line of sight.
+        for steps in FARTHER:
+            again = np.flatnonzero(best > self._enough)
+            if len(again) == 0:
+                break
+            start = at[again] + steps * self._most * self._along_sight(at[again])
+            best[again] = np.fmin(best[again], self._search(start, q[again], way[again], True))
         return best
+
+    def _along_sight(self, at: Floats) -> Floats:
+        """(n, 2) steps of u and v per length in the model along the line of sight, projected into the tangent plane."""
+        point, su, sv, *_ = self._jets(at).transpose(1, 0, 2)
+        sight = self._paper.sight(point)
+        with np.errstate(all="ignore"):
+            rows = np.stack([np.stack([dot(a, b) for b in (su, sv)], axis=1) for a in (su, sv)], axis=1)
+            right = np.stack([dot(su, sight), dot(sv, sight)], axis=1) / np.sqrt(dot(sight, sight))[:, None]
+            return _least(rows, right, True)
 
     def _search(self, start: Floats, q: Floats, way: Floats, beside: bool) -> Floats:
         """(n,) the least errors at edge-on points that Newton's method reaches; steps that make it worse are halved.
