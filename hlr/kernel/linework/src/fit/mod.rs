@@ -45,8 +45,12 @@ pub fn located(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64, bu
     locate::along(placed, flat, space, accuracy, bulge)
 }
 
-/// The drawn form of an interval of a curve. The interval may run backward, and beyond the seam of a closed curve.
+/// The drawn form of an interval of a curve. The interval may run backward, and beyond the seam of a closed curve. None
+/// where it is a point: a line all of whose points lie beyond the end of its curve.
 pub fn piece(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<Drawn> {
+    if range[0] == range[1] {
+        return None;
+    }
     let ends = |range: [f64; 2]| {
         let (mut flat, mut space) =
             (range.map(|t| placed.on_paper(t)[0]), range.map(|t| placed.curve.point(placed.track.wrapped(t))));
@@ -94,4 +98,23 @@ pub fn piece(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<Drawn> {
     }
     let bounds = chain.bounds();
     Some(Drawn { form: Form::Chain(chain), range, flat, space, bounds })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::project::Projection;
+    use super::*;
+    use hlr_brep::geometry::curve::Curve;
+    use hlr_brep::geometry::nurbs::Nurbs;
+
+    #[test]
+    fn a_point_of_a_spline_is_no_piece_of_it() {
+        let seen = Projection([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]);
+        let knots = [0.0; 4].into_iter().chain([1.0; 4]).collect();
+        let poles = vec![[0.0, 0.0, 0.0, 1.0], [1.0, 4.0, 0.0, 1.0], [2.0, 4.0, 0.0, 1.0], [3.0, 0.0, 0.0, 1.0]];
+        let curve = Curve::Spline(Nurbs { degree: 3, rational: false, sampled: false, knots, poles });
+        let placed = Placed::new(curve, [0.0, 1.0], &seen, 1e-9);
+        assert!(piece(&placed, [0.25, 0.75], 0.01).is_some());
+        assert!([0.0, 0.5, 1.0].iter().all(|&t| piece(&placed, [t, t], 0.01).is_none()));
+    }
 }
