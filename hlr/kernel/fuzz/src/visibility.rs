@@ -151,7 +151,55 @@ fn drawn(mesh: &Mesh, e: usize, counted: &dyn Fn(usize) -> bool) -> bool {
             .map_or(0, |&v| oracle::area([a, b, v].map(|v| mesh.points[v as usize])).signum());
         if counted(t as usize) { apex } else { 0 }
     };
-    mesh.incident(e).iter().map(side).sum::<i128>() != 0 || beside_strip(mesh, e)
+    mesh.incident(e).iter().map(side).sum::<i128>() != 0 || beside_strip(mesh, e) || behind_wall(mesh, e, counted)
+}
+
+/// So is the border of a wall, which is exactly edge-on, to what is turned away and not counted, unless other lines of the
+/// wall cover it: of the triangles of its plane that hang together by edges that are no points in the image.
+fn behind_wall(mesh: &Mesh, e: usize, counted: &dyn Fn(usize) -> bool) -> bool {
+    let facing = |t: i32| oracle::area(mesh.triangles[t as usize].map(|v| mesh.points[v as usize])).signum();
+    let ends = |e: usize| mesh.edges[e].map(|v| [0, 1].map(|k| mesh.points[v as usize][k]));
+    let &[s, t] = mesh.incident(e) else { return false };
+    let mut wall = match (facing(s), facing(t)) {
+        (0, -1) => vec![s],
+        (-1, 0) => vec![t],
+        _ => return false,
+    };
+    let mut lines = Vec::new();
+    let mut done = 0;
+    while done < wall.len() {
+        let own = wall[done];
+        done += 1;
+        for e in (0..mesh.edges.len()).filter(|&e| mesh.incident(e).contains(&own) && ends(e)[0] != ends(e)[1]) {
+            let around = mesh.incident(e);
+            let sides = around.iter().map(|&t| if counted(t as usize) { facing(t) * side_of(mesh, e, t) } else { 0 });
+            if mesh.role[e] & DRAWN != 0 || (mesh.role[e] != 0 && sides.sum::<i128>() != 0) {
+                lines.push(ends(e));
+            }
+            if let &[s, t] = around {
+                let others = [s, t].into_iter().filter(|&t| facing(t) == 0 && !wall.contains(&t)).collect::<Vec<_>>();
+                wall.extend(others);
+            }
+        }
+    }
+    // Between two neighbouring ends of lines, all of the edge is covered or nothing: its middle tells, doubled.
+    let mut stops: Vec<[i32; 2]> = lines.iter().flatten().chain(&ends(e)).copied().collect();
+    stops.sort_unstable();
+    let twice = |p: [i32; 2]| p.map(|c| 2 * i64::from(c));
+    let within = |line: &[[i32; 2]; 2], p: [i64; 2]| {
+        let [a, b] = line.map(twice);
+        a.min(b) < p && p < a.max(b)
+    };
+    stops.windows(2).filter(|w| w[0] != w[1]).any(|w| {
+        let middle = [0, 1].map(|k| i64::from(w[0][k]) + i64::from(w[1][k]));
+        within(&ends(e), middle) && !lines.iter().any(|line| within(line, middle))
+    })
+}
+
+/// 1 where the triangle runs along an edge from its first end to its second, else -1.
+fn side_of(mesh: &Mesh, e: usize, t: i32) -> i128 {
+    let corners = mesh.triangles[t as usize];
+    if (0..3).any(|k| [corners[k], corners[(k + 1) % 3]] == mesh.edges[e]) { 1 } else { -1 }
 }
 
 /// So are the borders of a strip that is edge-on but for the rounding of its file: between two triangles that face the
