@@ -2,8 +2,8 @@
 
 The side of the post is seen exactly edge-on, and what lies before and behind it is turned away. Of a closed body that
 is not counted, so no border of the side was a contour, and the circle of the post was missing among the hidden lines.
-From the end the rounding is turned toward the viewer, and the circle is there. Seen on a part of the NIST with triangles
-alone, 440 mm of it.
+From the end the rounding is turned toward the viewer, and the circle is there. Seen on a part of the NIST that has
+triangles alone: 440 mm of it.
 """
 
 from __future__ import annotations
