@@ -124,13 +124,16 @@ fn beside_edge_on(mesh: &Mesh, table: &PolygonTable, edge: usize) -> bool {
 
 /// The triangle of a wall at an edge that would be an outline if what is turned away were counted; None at others.
 fn behind_wall(mesh: &Mesh, table: &PolygonTable, edge: usize) -> Option<i32> {
+    if mesh.role[edge] & OUTLINE == 0 {
+        return None;
+    }
     let &[s, t] = mesh.incident(edge) else { return None };
     let wall = match [s, t].map(|t| table.facing(t as usize)) {
         [0, -1] => s,
         [-1, 0] => t,
         _ => return None,
     };
-    (mesh.role[edge] & OUTLINE != 0 && !seen_end_on(mesh, edge)).then_some(wall)
+    (!seen_end_on(mesh, edge)).then_some(wall)
 }
 
 /// Walls that are exactly edge-on, and the lines that they have in the image without their borders to what is turned away.
