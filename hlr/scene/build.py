@@ -66,7 +66,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
     plan.spent("intersection search", perf_counter() - begin, clash_tests=met.tests)
     true, intersections = _true_surfaces(whole, found), None
     parts = part_reports(
-        whole, doubled, found, mesh.offsets, drawn, self_intersecting_parts(met, group_part), meshed.sheets
+        whole, doubled, found, mesh.offsets, drawn, self_intersecting_parts(met, group_part), meshed.surface_parts
     )
     groups = groups.unsound(met.through | found.welded)
 

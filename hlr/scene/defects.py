@@ -26,13 +26,13 @@ def part_reports(
     offsets: Ints,
     drawn: list[int] | None,
     crossed: Ints,
-    sheets: Callable[[], Collection[str]],
+    surface_parts: Callable[[], Collection[str]],
 ) -> tuple[ScenePart, ...]:
     """One report per part: identity, counts and defects.
 
     doubled: triangles already left out as duplicates; offsets: of the triangles at each mesh edge; drawn: edges of
     parts without B-rep, None where there are none; crossed: numbers of parts whose surfaces pass through one another;
-    sheets: the names of parts that are faces outside all solids.
+    surface_parts: the names of parts that are faces outside all solids.
     """
     through = set(crossed.tolist())
     tables = whole.tables
@@ -42,19 +42,19 @@ def part_reports(
     reports = found.reports
     is_open = any(report[0] for report in reports)
     bordering = _border_edges(found, offsets, len(brep)) if is_open and any(brep) else [0] * len(brep)
-    named = sheets() if is_open else ()
+    named = surface_parts() if is_open else ()
     out = []
     for i, (label, counts) in enumerate(zip(whole.labels, reports, strict=True)):
         border, crowded, turned, flat, unclosed, outside_in, triangles, edges = counts
-        sheet, open_edges = label.name in named, 0
+        of_surfaces, open_edges = label.name in named, 0
         defects = []
         if doubled[i]:
             defects.append(_count(doubled[i], "duplicated triangle"))
         if flat and not brep[i]:  # in a B-rep they are due to the tessellation, not to the model
             defects.append(_count(flat, "triangle") + " without area")
-        if border and not (sheet and _is_flat(whole, i)):
+        if border and not (of_surfaces and _is_flat(whole, i)):
             shown = bordering[i] or border
-            open_edges = shown if sheet else 0
+            open_edges = shown if of_surfaces else 0
             defects.append("open: " + _count(shown, "border edge"))
         if crowded:
             defects.append(_count(crowded, "non-manifold edge"))
@@ -83,28 +83,28 @@ def part_reports(
 
 
 def defect_notes(parts: tuple[ScenePart, ...]) -> list[Note]:
-    """One note per defective part, MAX_NOTES at most, and one for all others; then as many for sheets that are open."""
-    bad = [p for p in parts if p.defects and not _is_open_sheet(p)]
+    """One note per defective part, MAX_NOTES at most, and one for all others; then the same for open surfaces."""
+    bad = [p for p in parts if p.defects and not _is_open_surface(p)]
     out = [Note("defects", f'Part "{p.name}" is drawn as it is: {"; ".join(p.defects)}.') for p in bad[:MAX_NOTES]]
     if len(bad) > MAX_NOTES:
         more = len(bad) - MAX_NOTES
         text = f"{more} more part{' has' if more == 1 else 's have'} defects: see hlr info."
         out.append(Note("more-defects", text))
-    return out + _sheet_notes([p for p in parts if _is_open_sheet(p)])
+    return out + _surface_notes([p for p in parts if _is_open_surface(p)])
 
 
-def _is_open_sheet(part: ScenePart) -> bool:
+def _is_open_surface(part: ScenePart) -> bool:
     """It is open, as it may be, and nothing else is wrong with it."""
     return part.open_edges > 0 and len(part.defects) == 1
 
 
-def _sheet_notes(sheets: list[ScenePart]) -> list[Note]:
+def _surface_notes(open_parts: list[ScenePart]) -> list[Note]:
     texts = [
         f'Part "{p.name}" holds faces and no solid: it is open, at {_count(p.open_edges, "edge")}.'
-        for p in sheets[:MAX_NOTES]
+        for p in open_parts[:MAX_NOTES]
     ]
-    if len(sheets) > MAX_NOTES:
-        more = len(sheets) - MAX_NOTES
+    if len(open_parts) > MAX_NOTES:
+        more = len(open_parts) - MAX_NOTES
         are = "more part of faces and no solid is" if more == 1 else "more parts of faces and no solid are"
         texts.append(f"{more} {are} open: see hlr info.")
     return [Note("open-surfaces", text) for text in texts]

@@ -169,7 +169,7 @@ class Tessellation:
 
     edge_curves: the curves of edges, given as (m,) parts and (m,) indices in their TopExp edge maps; None for meshes
     rescued, lost: how many underlying faces were mended or meshed by OpenCASCADE, and how many nobody could mesh
-    sheets: the names of parts that are faces outside all solids, and may be open; asked only where a part is open
+    surface_parts: the names of parts that are faces outside all solids, which may be open; asked only where one is
     """
 
     parts: Sequence[PartMesh]
@@ -177,7 +177,7 @@ class Tessellation:
     rescued: int = 0
     lost: int = 0
     edge_curves: Callable[[Ints, Ints], EdgeCurves] | None = None
-    sheets: Callable[[], Collection[str]] = frozenset
+    surface_parts: Callable[[], Collection[str]] = frozenset
 
 
 Choice = tuple[tuple[str, ...], tuple[str, ...]]

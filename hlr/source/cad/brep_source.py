@@ -250,9 +250,9 @@ class BrepSource:
 
         parts = PartMeshes(kept, placed, surfaces if placed.brep.any() else None)
         rescued = len(faults.rescued) + len(faults.crossed)
-        return Tessellation(parts, notes, rescued, len(faults.lost), edge_curves, self._sheets)
+        return Tessellation(parts, notes, rescued, len(faults.lost), edge_curves, self._surface_parts)
 
-    def _sheets(self) -> frozenset[str]:
+    def _surface_parts(self) -> frozenset[str]:
         """The names of parts that are faces outside all solids."""
         return frozenset(info.name for info in self.infos() if info.faces and not info.solids)
 
