@@ -11,7 +11,7 @@ from pathlib import Path
 
 from hlr.common.packages import bindings, installed
 
-LIBRARIES = ("ezdxf", "lxml", "manifold3d", "networkx", "numpy", "pillow", "pydyf", "trimesh")
+LIBRARIES = ("ezdxf", "fonttools", "lxml", "manifold3d", "networkx", "numpy", "pillow", "pydyf", "trimesh")
 """Packages beside OpenCASCADE that read models or write files."""
 
 _NOT_DRAWING = ("batch", "cli", "compat", "docs", "kernel", "lab")

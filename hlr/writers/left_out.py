@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.notes import Note
 from hlr.tables.entry import listed
-from hlr.writers.template_pdf import ENCODING
+from hlr.writers.page_fonts import missing_letters
 
 MOST_LETTERS = 5
 """Letters that are named one by one."""
@@ -34,13 +34,12 @@ def left_out(drawing: Drawing, format: str, file: str) -> list[Note]:
 
 
 def _missing_letters(template: str) -> list[str]:
-    """The letters of a template's texts that PDF has not, each once."""
+    """The letters of a template's texts that PDF has no font for, each once."""
     try:
         whole = ElementTree.fromstring(f"<svg>{template}</svg>")
     except ElementTree.ParseError:
         return []  # the writer says so
-    letters = dict.fromkeys("".join(_texts(whole, False)))
-    return [letter for letter in letters if not letter.encode(ENCODING, "ignore")]
+    return missing_letters("".join(_texts(whole, False)))
 
 
 def _texts(element: Element, inside: bool) -> Iterator[str]:

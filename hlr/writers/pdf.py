@@ -21,6 +21,7 @@ from hlr.drawing.drawing import Drawing
 from hlr.drawing.fill import Fill
 from hlr.drawing.printed import printed
 from hlr.writers.number import number
+from hlr.writers.page_fonts import PageFonts
 from hlr.writers.strokes import Inked, Strokes, strokes
 from hlr.writers.svg import accuracies, reached, title
 
@@ -78,16 +79,15 @@ def document(drawing: Drawing, page: Strokes, sheet: Sheet) -> bytes:
     """A drawing on a sheet; page: its cubic strokes."""
     made = pydyf.PDF()
     layers = _Layers(made)
-    content = zlib.compress(_content(drawing, page, sheet, layers), _LEVEL)
+    fonts = PageFonts()
+    content = zlib.compress(_content(drawing, page, sheet, layers, fonts), _LEVEL)
     stream = pydyf.Stream([content], {"Filter": "/FlateDecode"})
     made.add_object(stream)
 
     names = {f"L{i}": reference for i, reference in enumerate(layers.references)}
     resources = {"Properties": pydyf.Dictionary(names)}
     if printed(drawing):
-        from hlr.writers.template_pdf import FONT, FONT_RESOURCE
-
-        resources["Font"] = pydyf.Dictionary({FONT: FONT_RESOURCE})
+        resources["Font"] = pydyf.Dictionary(fonts.resources(made))
     if drawing.fill is not None:
         from hlr.writers.fill import painted, pdf_resources
 
@@ -127,7 +127,7 @@ def layer_name(kind: str, visible: bool) -> str:
     return f"{'Visible' if visible else 'Hidden'} {kind}"
 
 
-def _content(drawing: Drawing, page: Strokes, sheet: Sheet, layers: _Layers) -> bytes:
+def _content(drawing: Drawing, page: Strokes, sheet: Sheet, layers: _Layers, fonts: PageFonts) -> bytes:
     """The page's drawing commands, in millimetres."""
     matrix = " ".join(map(_real, _matrix(page, sheet)))
     out = []
@@ -140,7 +140,7 @@ def _content(drawing: Drawing, page: Strokes, sheet: Sheet, layers: _Layers) -> 
         from hlr.writers.template_pdf import template_commands
 
         begin = layers.begin("template", "Template")
-        commands = template_commands(under, page.left, page.bottom + page.height)
+        commands = template_commands(under, page.left, page.bottom + page.height, fonts)
         out += [f"{begin} ".encode("ascii"), commands, b"EMC\n"]
     if drawing.fill is not None:
         out += _filled(drawing, drawing.fill, page.places, layers)

@@ -1,4 +1,4 @@
-"""The template of a page in PDF: its paths, and its texts in Helvetica, which every viewer has."""
+"""The template of a page in PDF: its paths, and its texts in the fonts of `page_fonts`."""
 
 from __future__ import annotations
 
@@ -9,29 +9,22 @@ from typing import Any
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
-from hlr.common.text_width import text_width
 from hlr.errors import WriteError
 from hlr.writers.number import number
+from hlr.writers.page_fonts import PageFonts
 
 _REFERENCE = re.compile(r"""url\(\s*["']?#([^)"']+?)["']?\s*\)""")
 _STOP_COLOR = re.compile(r"(?:^|;)\s*stop-color\s*:\s*([^;]+)")
-
-FONT = "T"
-"""The name of the font among the resources of the page."""
-
-ENCODING = "cp1252"
-"""The letters that the font has here, as Python calls them: WinAnsiEncoding. Others become question marks."""
-
-FONT_RESOURCE = "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>"
 
 CAPS = {"butt": 0, "round": 1, "square": 2}
 JOINS = {"miter": 0, "round": 1, "bevel": 2}
 
 
-def template_commands(template: str, left: float, top: float) -> bytes:
+def template_commands(template: str, left: float, top: float, fonts: PageFonts) -> bytes:
     """The commands that draw a template, in millimetres with y up.
 
-    template: as of `hlr.drawing.sheet.Sheet`. left, top: of the page, in the drawing's coordinates.
+    template: as of `hlr.drawing.sheet.Sheet`. left, top: of the page, in the drawing's coordinates. fonts: are told
+        the letters of the texts.
 
     Raises:
         WriteError: the template is no SVG that can be drawn.
@@ -45,7 +38,7 @@ def template_commands(template: str, left: float, top: float) -> bytes:
             if element.values.get("visibility") == "hidden" or element.values.get("display") == "none":
                 continue
             if isinstance(element, Text):
-                out += _text(element)
+                out += _text(element, fonts)
             elif isinstance(element, Shape):
                 out += _shape(element, Path(element))
     except Exception as error:  # whatever a broken file makes the library raise
@@ -119,18 +112,17 @@ def _segments(path: Any) -> Iterator[str]:
                 yield f"{_point(a + (b - a) * (2 / 3))} {_point(c + (b - c) * (2 / 3))} {_point(c)} c"
 
 
-def _text(text: Any) -> Iterator[str]:
-    words = " ".join((text.text or "").split())
-    fill = _color(text.fill)
+def _text(text: Any, fonts: PageFonts) -> Iterator[str]:
+    words, fill = (text.text or "").strip(), _color(text.fill)
     if not words or not fill:
         return
-    size = float(text.font_size or 0.0)
-    back = {"middle": 0.5, "end": 1.0}.get(text.anchor, 0.0) * size * text_width(words)
+    size, shown = float(text.font_size or 0.0), fonts.set_text(words)
+    back = {"middle": 0.5, "end": 1.0}.get(text.anchor, 0.0) * size * shown.width
     m = text.transform
     x, y = float(text.x or 0.0) - back, float(text.y or 0.0)
     placed = (m.a, m.b, -m.c, -m.d, m.a * x + m.c * y + m.e, m.b * x + m.d * y + m.f)
-    data = words.encode(ENCODING, "replace").hex()
-    yield f"BT {fill} rg /{FONT} {number(size)} Tf {' '.join(number(v, 6) for v in placed)} Tm <{data}> Tj ET"
+    font, matrix = f"/{shown.font} {number(size)} Tf", " ".join(number(v, 6) for v in placed)
+    yield f"BT {fill} rg {font} {matrix} Tm <{shown.data.hex()}> Tj ET"
 
 
 def _color(color: Any) -> str:
