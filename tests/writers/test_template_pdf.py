@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import io
-from dataclasses import replace
 
 import numpy as np
 import pypdfium2
 import pytest
 from PIL import Image
+from writers.pages import with_template
 
-from hlr.drawing.page import Page
-from hlr.drawing.sheet import Sheet
 from hlr.errors import WriteError
 from hlr.writers.left_out import left_out
 from support.drawings import drawing, line
@@ -28,9 +26,7 @@ TEMPLATE = """<svg width="100" height="80" viewBox="0 0 200 160">
 
 
 def sheet(template=TEMPLATE):
-    lines = [line([(10, 10), (20, 10)])]
-    page = Page("test", 100.0, 80.0, 0.0, 0.0)
-    return replace(drawing(lines), page=page, sheet=Sheet((), template))
+    return with_template(template)
 
 
 def pixels(shown):
@@ -109,12 +105,12 @@ def test_gradients_without_colours_paint_nothing(own):
 
 
 def test_letters_that_pdf_has_not_are_named():
-    page = sheet(TEMPLATE.replace("Ünal", "größer ≥ 5 Ω, Привет – ≥"))
+    page = sheet(TEMPLATE.replace("Ünal", "größer ≥ 5 Ω, 図面番号 – 𝛼 עברית \u3000図"))
     for format in ("pdf", "png"):
         (note,) = left_out(page, format, f"a.{format}")
         assert (note.code, note.is_warning) == ("page-items-left-out", True)
         assert note.text == (
-            f'Page "{page.view.name}": "≥", "Ω", "П", "р", "и" and 3 more not drawn in a.{format}, but ? instead: '
+            f'Page "{page.view.name}": "図", "面", "番", "号", "𝛼" and 5 more not drawn in a.{format}, but ? instead: '
             "SVG has all letters."
         )
     assert left_out(page, "svg", "a.svg") == []
@@ -123,6 +119,8 @@ def test_letters_that_pdf_has_not_are_named():
 
 def test_letters_that_nobody_sees_are_not_named():
     assert left_out(sheet(), "pdf", "a.pdf") == []
-    hidden = '<title>Ω</title><g display="none"><text>Ω</text></g><text>a<tspan visibility="hidden">Ω</tspan> €</text>'
+    hidden = (
+        '<title>図</title><g display="none"><text>図</text></g><text>a<tspan visibility="hidden">図</tspan> €</text>'
+    )
     assert left_out(sheet(hidden), "pdf", "a.pdf") == []
     assert left_out(drawing([line([(10, 10), (20, 10)])]), "pdf", "a.pdf") == []
