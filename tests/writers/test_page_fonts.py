@@ -76,7 +76,7 @@ def test_letters_look_as_the_font_has_them(words):
         x += size * shipped_font.advances()[letter]
     place = np.s_[: 12 * dots, : 100 * dots]
     ink, told = image(texts(words, x=5), dots)[place] < 128, np.asarray(expected)[place] < 128
-    assert (ink & told).sum() > 0.9 * (ink | told).sum()
+    assert (ink & told).sum() > 0.85 * (ink | told).sum()
 
 
 def test_png_has_the_letters():
