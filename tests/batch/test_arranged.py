@@ -138,12 +138,12 @@ def test_a_template_with_the_name_of_each_source_in_its_title(tmp_path):
 
 def test_what_files_leave_out_of_a_page_stands_in_the_report(tmp_path):
     (tmp_path / "sheet.svg").write_text(TEMPLATE)
-    keys = {"arrange": "third-angle", "template": "sheet.svg", "texts": {"TITLE": "≥ 5"}, "hidden": False}
+    keys = {"arrange": "third-angle", "template": "sheet.svg", "texts": {"TITLE": "図 5"}, "hidden": False}
     _, (job,) = jobs(tmp_path, formats=["svg", "pdf", "dxf", "json"], **keys)
     outcome = carry_out(job)
     assert outcome.warned
     assert [note["text"] for note in outcome.drawings[0]["notes"]][:2] == [
-        'Page "third-angle": "≥" not drawn in PDF, but ? instead: SVG has all letters.',
+        'Page "third-angle": "図" not drawn in PDF, but ? instead: SVG has all letters.',
         'Page "third-angle": the template not drawn in DXF, which has the lines alone.',
     ]
     assert b"not drawn" not in outcome.contents[0][3]  # the same bytes as those of `hlr draw`
