@@ -141,6 +141,7 @@ for words in (WORDS, PLAIN):
 """
 
 
+@pytest.mark.slow
 def test_the_same_bytes_in_any_process_at_any_time():
     def run(seed):
         # The font's tool asks this variable for the time.
@@ -163,6 +164,7 @@ print("hlr.writers.template_pdf" in sys.modules, "fontTools" in sys.modules, "hl
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("words", "loaded"), [("größer € –", False), ("≥ 5", True)])
 def test_the_font_is_loaded_only_if_a_text_needs_it(words, loaded):
     command = [sys.executable, "-c", UNLOADED, texts(words).sheet.template]
