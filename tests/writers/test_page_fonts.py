@@ -146,7 +146,7 @@ def test_the_same_bytes_in_any_process_at_any_time():
     def run(seed):
         # The font's tool asks this variable for the time.
         env = environment(PYTHONHASHSEED=seed, SOURCE_DATE_EPOCH=f"{seed}00000")
-        command = [sys.executable, "-c", PROGRAM]
+        command = [sys.executable, "-P", "-c", PROGRAM]
         return subprocess.run(command, env=env, capture_output=True, text=True, check=True).stdout
 
     first = run("1")
@@ -167,7 +167,7 @@ print("hlr.writers.template_pdf" in sys.modules, "fontTools" in sys.modules, "hl
 @pytest.mark.slow
 @pytest.mark.parametrize(("words", "loaded"), [("größer € –", False), ("≥ 5", True)])
 def test_the_font_is_loaded_only_if_a_text_needs_it(words, loaded):
-    command = [sys.executable, "-c", UNLOADED, texts(words).sheet.template]
+    command = [sys.executable, "-P", "-c", UNLOADED, texts(words).sheet.template]
     done = subprocess.run(command, env=environment(), capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["True", str(loaded), str(loaded)]
 
