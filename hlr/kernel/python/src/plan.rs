@@ -1,5 +1,6 @@
 //! Binding of `hlr_visibility::plan`: groups of a scene, and what the visibility pass is told of them and of edges.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
@@ -14,7 +15,7 @@ use super::view::{Flat, Rows, arrays, flat, rows};
 use hlr_linework::lines::camera::Camera as PaperCamera;
 use hlr_visibility::plan::contact::{Contact, coming_near};
 use hlr_visibility::plan::groups::{Depths, Groups as Columns};
-use hlr_visibility::plan::roles::{Counts, Roles, counts, edge_roles, told};
+use hlr_visibility::plan::roles::{Roles, counts, edge_roles, told};
 use hlr_visibility::scan::scene::Group;
 
 /// Properties of the groups of a scene.
@@ -82,8 +83,7 @@ impl Groups {
     ) -> PyResult<Groups> {
         let which = slice(which, "which")?;
         expect_len("which", which.len(), self.0.len())?;
-        let same = || self.0.clone();
-        Ok(Groups(if which.contains(&true) { Arc::new(change(&self.0, which)) } else { same() }))
+        Ok(Groups(if which.contains(&true) { Arc::new(change(&self.0, which)) } else { self.0.clone() }))
     }
 
     /// Whether the box of each group, `reach` wider on all sides, comes near that of another.
@@ -101,12 +101,10 @@ pub(super) fn depths([curved, planar, share]: [f64; 3]) -> Depths {
     Depths { curved, planar, share }
 }
 
-/// What decided the groups of a plan, where it was made for a view.
+/// What a plan was decided for.
 struct View {
     groups: Arc<Columns>,
     camera: PaperCamera,
-    contact: Contact,
-    counts: Counts,
 }
 
 /// What the visibility pass is told of edges and groups.
@@ -116,9 +114,8 @@ pub struct Plan {
     edge: Py<PyArray1<i32>>,
     pub(super) role: Vec<u8>,
     pub(super) drawn: Vec<bool>,
-    /// Of each group; and where nothing touches.
-    touching: Vec<Group>,
-    apart: Vec<Group>,
+    groups: Vec<Group>,
+    /// None where the plan was given.
     view: Option<View>,
 }
 
@@ -153,14 +150,10 @@ arrays! { Plan {
             let classes = table::<u8, 256>(&roles, "roles")?;
             let roles: &Roles = classes.try_into().map_err(|_| PyValueError::new_err("roles must be a (2, 256) array"))?;
             let role = run(py, kind.len() / 64, |_| edge_roles(curved, kind, roles, hidden))?;
-            let (groups, camera) = (groups.0.clone(), camera.0);
-            let of = triangle.bind(py).try_readonly()?;
-            let of = slice(&of, "group of triangles")?;
-            expect_slice_below("group of triangles", of, groups.len())?;
-            let counts = counts(&groups, of, &role);
-            let contact = Contact::of(&groups, &camera, depths(contact), rounding);
-            let told = told(&groups, &contact);
-            Plan::checked(py, triangle, edge, role, drawn, told, Some(View { groups, camera, contact, counts }))
+            let contact = Contact::of(&groups.0, &camera.0, depths(contact), rounding);
+            let told = told(&groups.0, &contact);
+            let view = View { groups: groups.0.clone(), camera: camera.0 };
+            Plan { triangle, edge, role, drawn, groups: told, view: Some(view) }.checked(py)
         })
     }
 
@@ -190,8 +183,8 @@ arrays! { Plan {
             }
             let group =
                 |g: usize| Group { cull: cull[g], sound: sound[g], delta: delta[g], cap: cap[g], tight: tight[g] };
-            let told = (0..cull.len()).map(group).collect();
-            Plan::checked(py, triangle, edge, slice(&role, "role")?.to_vec(), drawn, told, None)
+            let (groups, role) = ((0..cull.len()).map(group).collect(), slice(&role, "role")?.to_vec());
+            Plan { triangle, edge, role, drawn, groups, view: None }.checked(py)
         })
     }
 
@@ -210,36 +203,27 @@ arrays! { Plan {
     /// How many groups come within the contact tolerance of another.
     fn coming_near(&self, lift: f64, spare: f64) -> PyResult<usize> {
         let view = self.of_view()?;
-        coming_near(&view.groups, &view.camera, &view.contact.delta, spare, lift).ok_or_else(not_finite)
+        let delta: Vec<f64> = self.groups.iter().map(|group| group.delta).collect();
+        coming_near(&view.groups, &view.camera, &delta, spare, lift).ok_or_else(not_finite)
     }
 
     /// Groups with triangles, groups culled, groups that may pass through themselves, those of them that are not culled,
     /// and edges with a role.
-    fn counts(&self) -> PyResult<(usize, usize, usize, usize, usize)> {
-        let c = self.of_view()?.counts;
+    fn counts(&self, py: Python<'_>) -> PyResult<(usize, usize, usize, usize, usize)> {
+        let c = counts(&self.of_view()?.groups, slice(&self.reading(py)?.0, "triangle")?, &self.role);
         Ok((c.faced, c.culled, c.unsound, c.unsound_not_culled, c.edges))
     }
 }
 
 impl Plan {
-    #[allow(clippy::too_many_arguments)]
-    fn checked(
-        py: Python<'_>,
-        triangle: Py<PyArray1<i32>>,
-        edge: Py<PyArray1<i32>>,
-        role: Vec<u8>,
-        drawn: Vec<bool>,
-        touching: Vec<Group>,
-        view: Option<View>,
-    ) -> PyResult<Plan> {
-        let apart = touching.iter().map(|group| Group { cap: 0.0, ..*group }).collect();
-        let plan = Plan { triangle, edge, role, drawn, touching, apart, view };
-        let of = plan.reading(py)?;
-        expect_slice_below("group of triangles", slice(&of.0, "triangle")?, plan.touching.len())?;
+    fn checked(self, py: Python<'_>) -> PyResult<Plan> {
+        let of = self.reading(py)?;
         let edges = slice(&of.1, "edge")?;
-        expect_slice_below("group of edges", edges, plan.touching.len())?;
-        expect_len("role", plan.role.len(), edges.len())?;
-        Ok(plan)
+        expect_slice_below("group of triangles", slice(&of.0, "triangle")?, self.groups.len())?;
+        expect_slice_below("group of edges", edges, self.groups.len())?;
+        expect_len("role", self.role.len(), edges.len())?;
+        drop(of);
+        Ok(self)
     }
 
     /// Groups of triangles, and of edges.
@@ -248,8 +232,11 @@ impl Plan {
     }
 
     /// contact: whether surfaces touch within a tolerance. A cap of zero switches it off and keeps the grid.
-    pub(super) fn groups(&self, contact: bool) -> &[Group] {
-        if contact { &self.touching } else { &self.apart }
+    pub(super) fn groups(&self, contact: bool) -> Cow<'_, [Group]> {
+        if contact {
+            return Cow::Borrowed(&self.groups);
+        }
+        self.groups.iter().map(|group| Group { cap: 0.0, ..*group }).collect()
     }
 
     fn of_view(&self) -> PyResult<&View> {
@@ -257,6 +244,6 @@ impl Plan {
     }
 
     fn column<'py, T: numpy::Element>(&self, py: Python<'py>, of: impl Fn(&Group) -> T) -> Bound<'py, PyArray1<T>> {
-        self.touching.iter().map(of).collect::<Vec<T>>().into_pyarray(py)
+        self.groups.iter().map(of).collect::<Vec<T>>().into_pyarray(py)
     }
 }

@@ -187,6 +187,7 @@ pub fn visibility<'py>(
     let reading = mesh.reading(py)?;
     let all = reading.slices()?;
     let of = plan.reading(py)?;
+    let told = plan.groups(contact);
     let scene = Scene {
         points: rows::<f64, 3>(&projected, "projected")?,
         triangles: all.triangles,
@@ -196,7 +197,7 @@ pub fn visibility<'py>(
         incident: all.incident,
         edge_group: slice(&of.1, "edge")?,
         role: &plan.role,
-        groups: plan.groups(contact),
+        groups: &told,
     };
     expect_len("projected", scene.points.len(), all.points.len())?;
     expect_len("groups of triangles", scene.triangle_group.len(), all.triangles.len())?;

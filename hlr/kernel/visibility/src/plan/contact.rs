@@ -15,7 +15,7 @@ pub trait Look {
 }
 
 /// Per group, in depth units of the view.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
     /// What is hidden by less counts as touching.
     pub delta: Vec<f64>,
@@ -23,7 +23,7 @@ pub struct Contact {
     pub cap: Vec<f64>,
 }
 
-/// Of the eye's distance from the image plane: nothing that is looked at is nearer to the eye.
+/// Of the eye's distance from the image plane: nothing nearer to the eye is drawn (`NEAR` in `hlr/image/camera.py`).
 const NEAREST: f64 = 1e-3;
 
 impl Contact {

@@ -6,7 +6,7 @@ use super::Vec3;
 use crate::boxes::meeting::boxes_meet;
 
 /// Columns with one entry per group.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Groups {
     /// Every edge is used as often in one direction as in the other.
     pub closed: Vec<bool>,

@@ -31,7 +31,7 @@ pub fn told(groups: &Groups, contact: &Contact) -> Vec<Group> {
 }
 
 /// Numbers that decide which steps the pass takes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts {
     /// Groups that have triangles.
     pub faced: usize,
