@@ -22,11 +22,16 @@ use super::{Polyline, View, distance};
 /// Removes the stretches that better lines cover. `rank[i]` orders lines[i]; ranks are distinct.
 pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View) -> Vec<Polyline> {
     let gone = covered_by_better(&lines, rank, widths, view);
-    lines
-        .into_par_iter()
-        .zip(gone.into_par_iter())
-        .flat_map_iter(|(line, gaps)| if gaps.is_empty() { vec![line] } else { rest(&line, &gaps, widths, view) })
-        .collect()
+    let cut = |(line, gaps): (&Polyline, &Vec<Covered>)| (!gaps.is_empty()).then(|| rest(line, gaps, widths, view));
+    let pieces: Vec<Option<Vec<Polyline>>> = lines.par_iter().zip(&gone).map(cut).collect();
+    let mut out = Vec::with_capacity(lines.len());
+    for (line, pieces) in lines.into_iter().zip(pieces) {
+        match pieces {
+            None => out.push(line),
+            Some(pieces) => out.extend(pieces),
+        }
+    }
+    out
 }
 
 /// The stretches of each line that better ones cover, ascending.
