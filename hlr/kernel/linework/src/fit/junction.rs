@@ -12,7 +12,7 @@
 use rayon::prelude::*;
 
 use super::pierced::{Meeting, at_meeting};
-use super::plane::{length, minus, to_segment};
+use super::plane::{Vec2, length, minus, to_segment};
 use super::route::{Border, Change, Goal, Move, Route};
 use crate::lines::View;
 use hlr_accuracy::{JUNCTION_ALONG, JUNCTION_EDGE, JUNCTION_MET, JUNCTION_OUTLINE, JUNCTION_TOUCH};
@@ -114,7 +114,11 @@ fn changes(routes: &[Route]) -> Vec<Change> {
             ((route.chain, p[0].to_bits(), p[1].to_bits()), (i, end))
         })
     };
-    let lines = routes.par_iter().enumerate().filter(|(_, route)| route.flat.len() > 1);
+    let changing = changing(routes);
+    let may_change = |route: &Route| {
+        route.flat.len() > 1 && (route.border == Border::Outline || changing[route.chain as usize] == [true; 2])
+    };
+    let lines = routes.par_iter().enumerate().filter(|(_, route)| may_change(route));
     let mut meeting: Vec<_> = lines.flat_map_iter(of_line).collect();
     meeting.par_sort_unstable();
     // Where a visible and a hidden line of one edge meet, both ends move together.
@@ -136,6 +140,19 @@ fn changes(routes: &[Route]) -> Vec<Change> {
     out
 }
 
+/// Of each chain, whether it has hidden lines, and visible ones.
+fn changing(routes: &[Route]) -> Vec<[bool; 2]> {
+    let mut of_chain = Vec::new();
+    for route in routes {
+        let chain = route.chain as usize;
+        if chain >= of_chain.len() {
+            of_chain.resize(chain + 1, [false; 2]);
+        }
+        of_chain[chain][usize::from(route.visible)] = true;
+    }
+    of_chain
+}
+
 /// Visible borders near changes, as (change, line, segment).
 fn near(routes: &[Route], changes: &[Change], reach: f64) -> Vec<(usize, usize, usize)> {
     let mut out: Vec<(usize, usize, usize)> = routes
@@ -144,9 +161,13 @@ fn near(routes: &[Route], changes: &[Change], reach: f64) -> Vec<(usize, usize, 
         .filter(|(_, route)| route.visible && route.border != Border::None)
         .flat_map_iter(|(j, route)| {
             route.flat.windows(2).enumerate().flat_map(move |(k, w)| {
-                let from = changes.partition_point(|c| c.at[0] < w[0][0].min(w[1][0]) - reach);
-                let to = changes.partition_point(|c| c.at[0] <= w[0][0].max(w[1][0]) + reach);
-                (from..to).filter(move |&c| to_segment(&changes[c].at, &w[0], &w[1]).0 <= reach).map(move |c| (c, j, k))
+                let [low, high] = [f64::min, f64::max].map(|of| [of(w[0][0], w[1][0]), of(w[0][1], w[1][1])]);
+                let from = changes.partition_point(|c| c.at[0] < low[0] - reach);
+                let to = changes.partition_point(|c| c.at[0] <= high[0] + reach);
+                let beside = move |at: &Vec2| at[1] >= low[1] - reach && at[1] <= high[1] + reach;
+                (from..to)
+                    .filter(move |&c| beside(&changes[c].at) && to_segment(&changes[c].at, &w[0], &w[1]).0 <= reach)
+                    .map(move |c| (c, j, k))
             })
         })
         .collect();
@@ -232,7 +253,6 @@ fn within(route: &Route, u: f64, reach: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::plane::Vec2;
     use super::*;
     use hlr_brep::geometry::curve::Vec3;
 

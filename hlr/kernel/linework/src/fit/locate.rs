@@ -1,12 +1,15 @@
 //! Finds the interval of a curve along which a polyline runs.
 
 use super::placed::Placed;
-use super::plane::{Vec2, dot, length, minus};
+use super::plane::{Vec2, length, minus, to_segment};
 use hlr_accuracy::{CURVE_BETWEEN, CURVE_END};
 use hlr_brep::geometry::curve::Vec3;
 
 /// How far rounding may make a parameter step back, as a share of the period.
 const BACKLASH: f64 = 1e-7;
+
+/// A little less than one, for what is rounded.
+const SURELY: f64 = 1.0 - 1e-6;
 
 /// The parameters of a line's points on the curve along which it runs, rising or falling.
 pub fn along(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64, bulge: f64) -> Option<Vec<f64>> {
@@ -56,8 +59,8 @@ fn snap(placed: &Placed, t: &mut [f64], accuracy: f64) {
         for end in placed.range {
             let turns = placed.track.period.map_or(0.0, |p| ((t[i] - end) / p).round() * p);
             let goal = end + turns;
-            let apart = length(&minus(&placed.on_paper(t[i])[0], &placed.on_paper(goal)[0]));
-            if (goal - t[i]).abs() < 0.05 * whole && apart <= CURVE_END * accuracy {
+            let apart = || length(&minus(&placed.on_paper(t[i])[0], &placed.on_paper(goal)[0]));
+            if (goal - t[i]).abs() < 0.05 * whole && apart() <= CURVE_END * accuracy {
                 t[i] = goal;
                 break;
             }
@@ -68,17 +71,22 @@ fn snap(placed: &Placed, t: &mut [f64], accuracy: f64) {
 /// Whether the curve passes the line's vertices within the accuracy, and stays near it in between. An end of the line
 /// may lie in the middle of a chord, and be off the curve by as much as the chord is.
 fn follows(placed: &Placed, t: &[f64], flat: &[Vec2], accuracy: f64, bulge: f64) -> bool {
-    let near = |t: f64, a: &Vec2, b: &Vec2, most: f64| {
-        let p = placed.on_paper(t)[0];
-        let (d, way) = (minus(&p, a), minus(b, a));
-        let s = if way == [0.0; 2] { 0.0 } else { (dot(&d, &way) / dot(&way, &way)).clamp(0.0, 1.0) };
-        length(&minus(&d, &way.map(|c| c * s))) <= most
-    };
-    (0..flat.len()).all(|i| near(t[i], &flat[i], &flat[i], accuracy + bulge))
-        && (1..flat.len()).all(|i| {
-            let (a, b) = (&flat[i - 1], &flat[i]);
-            [0.25, 0.5, 0.75]
-                .iter()
-                .all(|s| near(t[i - 1] + (t[i] - t[i - 1]) * s, a, b, CURVE_BETWEEN * accuracy + bulge))
-        })
+    let between = CURVE_BETWEEN * accuracy + bulge;
+    let near = |t: f64, a: &Vec2, b: &Vec2| to_segment(&placed.on_paper(t)[0], a, b).0 <= between;
+    let bend = placed.paper.most_bend();
+    let mut before = 0.0;
+    (0..flat.len()).all(|i| {
+        let off = length(&minus(&placed.on_paper(t[i])[0], &flat[i]));
+        if i > 0 {
+            let (a, b, step) = (&flat[i - 1], &flat[i], t[i] - t[i - 1]);
+            // Between two parameters a curve rises above its chord by an eighth of the bend times their difference
+            // squared, at most. Where that is little, no place in between is looked at.
+            let surely = bend.is_some_and(|bend| 0.125 * bend * step * step + off.max(before) < SURELY * between);
+            if !surely && ![0.25, 0.5, 0.75].iter().all(|s| near(t[i - 1] + step * s, a, b)) {
+                return false;
+            }
+        }
+        before = off;
+        off <= accuracy + bulge
+    })
 }

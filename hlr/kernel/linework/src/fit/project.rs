@@ -89,6 +89,16 @@ impl Paper {
         }
     }
 
+    /// How long the second derivative is at most, millimetres; None where that would take a search.
+    pub fn most_bend(&self) -> Option<f64> {
+        match self {
+            Paper::Ellipse { p, a, b } if a[2] == 0.0 && b[2] == 0.0 => {
+                Some((a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1]).sqrt() / p[2].abs())
+            }
+            _ => None,
+        }
+    }
+
     /// Parameters inside (a, b) where the tangent may jump.
     pub fn corners(&self, a: f64, b: f64) -> Vec<f64> {
         let Paper::Spline { degree, knots, .. } = self else { return Vec::new() };
