@@ -651,27 +651,6 @@ class Lines:
     def chosen(self, chosen: Bools) -> Lines:
         """Those lines that are chosen (n,)."""
 
-    def spacings(
-        self, reaches: tuple[float, float, float]
-    ) -> tuple[
-        tuple[Floats, float, float] | None, tuple[Floats, float, float] | None, tuple[Floats, float, float] | None
-    ]:
-        """How close the hidden lines run, the visible ones, and hidden ones beside visible ones.
-
-        None where there are more than 2 km of them.
-
-        reaches: up to which distances is looked, millimetres. (k,) millimetres of ink whose nearest line alongside is
-        i/64 to (i + 1)/64 mm away; all ink; the side of the square around the smallest line, infinite where there are
-        none. ValueError for a bad length.
-        """
-
-    def left_out(self, pens: tuple[float, float], accuracy: float, order: list[int]) -> Bytes:
-        """(n,) what becomes of each line: 0 drawn, 1 smaller than the pen, 2 between others closer than the pen.
-
-        pens: widths of hidden and visible lines, millimetres; accuracy: ends within it meet, millimetres; order: line
-        classes, the least important first. ValueError for a bad length.
-        """
-
     def layers(self, order: list[int], places: int, accuracy: float, cubic: bool) -> list[Layer]:
         """Layers of pen strokes, rounded to 10**-places millimetres; hidden ones first, of each the kinds in `order`.
 
@@ -680,6 +659,36 @@ class Lines:
 
     def rows(self, places: int, accuracy: float, cubic: bool) -> tuple[dict[str, Any], npt.NDArray[np.int64]]:
         """Rows of all lines, as `hlr.writers.strokes.Rows` has them, and how many each has. ValueError as in layers."""
+
+class Ink:
+    """What a pen can show of the lines of a drawing: which lie close together, and which only make a blot."""
+
+    def __new__(cls, lines: Lines, reaches: tuple[float, float, float]) -> Ink:
+        """reaches: how far is looked beside hidden lines, beside visible ones, and from hidden to visible ones; mm.
+
+        ValueError for a bad length.
+        """
+
+    def spacings(
+        self,
+    ) -> tuple[
+        tuple[Floats, float, float] | None, tuple[Floats, float, float] | None, tuple[Floats, float, float] | None
+    ]:
+        """How close the hidden lines run, the visible ones, and hidden ones beside visible ones.
+
+        None where there are more than 2 km of them.
+
+        (k,) millimetres of ink whose nearest line alongside is
+        i/64 to (i + 1)/64 mm away; all ink; the side of the square around the smallest line, infinite where there are
+        none.
+        """
+
+    def left_out(self, pens: tuple[float, float], accuracy: float, order: list[int]) -> Bytes:
+        """(n,) what becomes of each line: 0 drawn, 1 smaller than the pen, 2 between others closer than the pen.
+
+        pens: widths of hidden and visible lines, millimetres; accuracy: ends within it meet, millimetres; order: line
+        classes, the least important first. ValueError for a bad length.
+        """
 
 class Layer:
     """The pen strokes of one line class and visibility, in grid steps, y up."""

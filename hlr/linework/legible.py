@@ -106,14 +106,15 @@ def legible(
     begun = perf_counter()
     usual = widths_of(style, sheet)
     kept = held(lines)
-    behind, seen, under = _spacings(kept, usual)
+    ink = _kernel.Ink(kept, _reaches(usual))
+    behind, seen, under = _spacings(ink)
     if seen is None or behind is None or under is None:
         return Legible(lines)
     if not (seen.close(usual[0]) or behind.close(usual[1]) or under.within(_white(usual)) > 0.0):
         return Legible(lines)
     pens = usual if style.wide or style.narrow else _group(seen, under, usual)
     notes = _notes(seen, usual, pens, scale)
-    fates = kept.left_out((pens[1], pens[0]), accuracy, list(in_drawing_order()))
+    fates = ink.left_out((pens[1], pens[0]), accuracy, list(in_drawing_order()))
     out = int(np.count_nonzero(fates))
     planner.spent(LEGIBILITY, perf_counter() - begun, left_out=out)
     if out:
@@ -147,17 +148,21 @@ def _bins(distance: float) -> int:
     return ceil(distance * BINS_PER_MM)
 
 
-def _spacings(lines: _kernel.Lines, pens: Pens) -> list[Spacing | None]:
-    """Of hidden lines, of visible lines, and of hidden ones beside visible ones, for pens so wide.
+def _reaches(pens: Pens) -> tuple[float, float, float]:
+    """How far is looked beside hidden lines, beside visible ones, and from hidden to visible ones; whole bins, mm."""
+    wide, narrow = pens
+    nearest = (APART * narrow, APART * wide, _white(pens))
+    return _bins(nearest[0]) / BINS_PER_MM, _bins(nearest[1]) / BINS_PER_MM, _bins(nearest[2]) / BINS_PER_MM
+
+
+def _spacings(ink: _kernel.Ink) -> list[Spacing | None]:
+    """Of hidden lines, of visible lines, and of hidden ones beside visible ones.
 
     None where there is more ink than any page has room for.
     """
-    wide, narrow = pens
-    nearest = (APART * narrow, APART * wide, _white(pens))
-    reaches = (_bins(nearest[0]) / BINS_PER_MM, _bins(nearest[1]) / BINS_PER_MM, _bins(nearest[2]) / BINS_PER_MM)
     return [
         None if found is None else Spacing(np.cumsum(found[0]) / max(found[1], 1.0), found[2], found[1])
-        for found in lines.spacings(reaches)
+        for found in ink.spacings()
     ]
 
 

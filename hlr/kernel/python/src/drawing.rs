@@ -6,6 +6,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, P
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
+use rayon::prelude::*;
 
 use super::arrays::{expect_len, flat, rows};
 use super::guard::caught;
@@ -13,15 +14,10 @@ use super::threads::run;
 use hlr_linework::curves::arcs::{Arc, Rows};
 use hlr_linework::curves::dashes::{Ends, Fitted, Pattern, dashes};
 use hlr_linework::curves::layer::{Layer as Inked, layers};
-use hlr_linework::curves::rows::rows_of;
+use hlr_linework::curves::rows::add_rows;
 use hlr_linework::curves::{pdf, svg};
 use hlr_linework::fit::bezier::Chain;
-use hlr_linework::legible::left_out::left_out;
-use hlr_linework::legible::spacing::spacings;
 use hlr_linework::lines::drawing::{Curve, Kind, Line, Lines as Drawn};
-
-/// Ink by its distance to the nearest line alongside, all ink, and the size of the smallest line.
-type Spacing<'py> = (Bound<'py, PyArray1<f64>>, f64, f64);
 
 const ARC: u8 = 2;
 const QUADRATIC: u8 = 3;
@@ -150,45 +146,12 @@ impl Lines {
     }
 
     /// Those lines that are `chosen`.
-    fn chosen(&self, chosen: PyReadonlyArray1<'_, bool>) -> PyResult<Lines> {
+    fn chosen(&self, py: Python<'_>, chosen: PyReadonlyArray1<'_, bool>) -> PyResult<Lines> {
         let chosen = flat(&chosen, "chosen")?;
-        expect_len("chosen", chosen.len(), self.0.0.len())?;
-        let lines = self.0.0.iter().zip(chosen).filter(|(_, c)| **c).map(|(line, _)| line.clone());
-        Ok(Lines::of(Drawn(lines.collect())))
-    }
-
-    /// Of hidden lines, of visible lines, and of hidden lines beside visible ones: ink by its distance to the nearest line
-    /// alongside, all ink, and the size of the smallest line; None where there is too much ink.
-    fn spacings<'py>(
-        &self,
-        py: Python<'py>,
-        reaches: [f64; 3],
-    ) -> PyResult<(Option<Spacing<'py>>, Option<Spacing<'py>>, Option<Spacing<'py>>)> {
-        for reach in reaches {
-            width("reach", reach)?;
-        }
-        // Of a few long lines as many places are looked at as of many short ones: 250 lines take a millisecond.
-        let found = run(py, 4 * self.0.0.len(), |_| spacings(&self.0, reaches))?;
-        Ok(found.map(|s| s.map(|s| (s.bins.into_pyarray(py), s.ink, s.smallest))).into())
-    }
-
-    /// (n,) the fate of each line: 0 drawn, 1 smaller than the pen, 2 between others.
-    fn left_out<'py>(
-        &self,
-        py: Python<'py>,
-        pens: [f64; 2],
-        accuracy: f64,
-        order: Vec<u8>,
-    ) -> PyResult<Bound<'py, PyArray1<u8>>> {
-        for pen in pens {
-            width("pen", pen)?;
-        }
-        if !(accuracy.is_finite() && accuracy > 0.0) {
-            return Err(PyValueError::new_err("accuracy must be above zero"));
-        }
-        let order: Vec<Kind> = order.into_iter().map(Kind).collect();
-        let fates = run(py, 4 * self.0.0.len(), |_| left_out(&self.0, pens, accuracy, &order))?;
-        Ok(fates.into_iter().map(|fate| fate as u8).collect::<Vec<_>>().into_pyarray(py))
+        let lines = &self.0.0;
+        expect_len("chosen", chosen.len(), lines.len())?;
+        let kept = || lines.par_iter().zip(chosen).filter(|(_, c)| **c).map(|(line, _)| line.clone());
+        Ok(Lines::of(Drawn(run(py, lines.len(), |_| kept().collect())?)))
     }
 
     /// The layers of pen strokes, in grid steps of 10^-places millimetres; order: the classes from the first drawn on.
@@ -217,9 +180,9 @@ impl Lines {
         self.check(places)?;
         let (mut out, mut counts) = (Rows::default(), Vec::new());
         for line in &self.0.0 {
-            let rows = rows_of(line, places, accuracy, cubic);
-            counts.push(rows.op.len() as i64);
-            out.append(&rows);
+            let before = out.op.len();
+            add_rows(line, places, accuracy, cubic, &mut out);
+            counts.push((out.op.len() - before) as i64);
         }
         Ok((row_arrays(py, &out)?, counts.into_pyarray(py)))
     }
@@ -266,7 +229,8 @@ fn curve(form: u8, data: &[f64]) -> Result<Option<Curve>, &'static str> {
     }
 }
 
-fn width(name: &str, value: f64) -> PyResult<()> {
+/// Checks a width or distance, millimetres.
+pub fn width(name: &str, value: f64) -> PyResult<()> {
     if value.is_finite() && (1e-3..=1e3).contains(&value) {
         return Ok(());
     }

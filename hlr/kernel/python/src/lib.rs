@@ -13,6 +13,7 @@ mod drawing;
 mod fill;
 mod geometry;
 mod guard;
+mod ink;
 mod intersections;
 mod lines;
 mod measure;
@@ -58,6 +59,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(geometry::curve_points, m)?)?;
     m.add_class::<drawing::Lines>()?;
     m.add_class::<drawing::Layer>()?;
+    m.add_class::<ink::Ink>()?;
     m.add_function(wrap_pyfunction!(chains::chain, m)?)?;
     m.add_class::<camera::Camera>()?;
     m.add_class::<lines::LineTolerances>()?;

@@ -51,13 +51,15 @@ impl Rows {
         self.shapes.extend(shape);
     }
 
-    /// Appends the rows of `more`.
-    pub fn append(&mut self, more: &Rows) {
-        let before = self.shapes.len() as i32;
-        self.points.extend(&more.points);
-        self.op.extend(&more.op);
-        self.arc.extend(more.arc.iter().map(|&i| if i < 0 { -1 } else { i + before }));
-        self.shapes.extend(&more.shapes);
+    /// Keeps the first `count` rows.
+    pub fn truncate(&mut self, count: usize) {
+        let shapes = self.arc[count.min(self.arc.len())..].iter().find(|&&i| i >= 0);
+        if let Some(&first) = shapes {
+            self.shapes.truncate(first as usize);
+        }
+        self.points.truncate(count);
+        self.op.truncate(count);
+        self.arc.truncate(count);
     }
 }
 

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::digits::put;
-use super::length::{Measured, ends, rows};
+use super::length::{Measured, between, ends, rows};
 use super::strokes::{Strokes, WHOLE};
 use crate::fit::plane::Vec2;
 
@@ -218,9 +218,11 @@ fn rounded(lengths: &[f64], offset: f64, times: f64) -> Fitted {
 /// The dashes of each stroke of a hidden layer.
 pub fn dashes(strokes: &Strokes, pattern: &Pattern, visible: &Ends) -> Vec<Fitted> {
     let one = |s: usize| {
-        let gaps = ends(strokes, s).map_or([false; 2], |both| both.map(|(point, out)| visible.continued(&point, &out)));
+        let rows = rows(strokes, s);
+        let ends = rows.first().zip(rows.last()).and_then(|(begin, end)| between(strokes, s, begin, end));
+        let gaps = ends.map_or([false; 2], |both| both.map(|(point, out)| visible.continued(&point, &out)));
         let round = strokes.op[strokes.starts[s] as usize] == WHOLE;
-        pattern.fitted(&rows(strokes, s), strokes.closed[s] || round, gaps)
+        pattern.fitted(&rows, strokes.closed[s] || round, gaps)
     };
     (0..strokes.closed.len()).into_par_iter().map(one).collect()
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::arcs::Rows;
-use super::rows::rows_of;
+use super::rows::add_rows;
 use super::strokes::{ARC, LINE, START, Shape, Strokes, WHOLE};
 use crate::lines::drawing::{Kind, Line, Lines};
 
@@ -30,18 +30,60 @@ pub struct Tie {
     pub other: i32,
 }
 
+/// Lines whose rows one thread makes together.
+const TOGETHER: usize = 64;
+
+/// The rows of one line.
+#[derive(Clone, Copy)]
+struct RowsOf<'a> {
+    points: &'a [[i64; 2]],
+    op: &'a [u8],
+    arc: &'a [i32],
+    shapes: &'a [Shape],
+}
+
+/// The rows of some lines, one after another, and where those of each end.
+struct Chunk {
+    rows: Rows,
+    ends: Vec<usize>,
+}
+
+impl Chunk {
+    fn of(lines: &[Line], places: usize, accuracy: f64, cubic: bool) -> Chunk {
+        let (mut rows, mut ends) = (Rows::default(), Vec::with_capacity(lines.len()));
+        for line in lines {
+            add_rows(line, places, accuracy, cubic, &mut rows);
+            ends.push(rows.op.len());
+        }
+        Chunk { rows, ends }
+    }
+
+    /// The rows of each line.
+    fn lines(&self) -> impl Iterator<Item = RowsOf<'_>> {
+        let starts = [0].into_iter().chain(self.ends.iter().copied());
+        starts.zip(&self.ends).map(|(from, &to)| RowsOf {
+            points: &self.rows.points[from..to],
+            op: &self.rows.op[from..to],
+            arc: &self.rows.arc[from..to],
+            shapes: &self.rows.shapes,
+        })
+    }
+}
+
 /// The layers of a drawing: hidden ones first, so that visible lines lie on top; within each, the kinds in this order.
 /// Empty layers are left out.
 pub fn layers(lines: &Lines, order: &[Kind], places: usize, accuracy: f64, cubic: bool) -> Vec<Layer> {
-    let rows: Vec<Rows> = lines.0.par_iter().map(|line| rows_of(line, places, accuracy, cubic)).collect();
+    let chunks: Vec<Chunk> =
+        lines.0.par_chunks(TOGETHER).map(|some| Chunk::of(some, places, accuracy, cubic)).collect();
+    let rows: Vec<RowsOf> = chunks.iter().flat_map(Chunk::lines).collect();
     let each: Vec<(bool, Kind)> =
         [false, true].iter().flat_map(|&v| order.iter().map(move |&kind| (v, kind))).collect();
     let layer = |&(visible, kind): &(bool, Kind)| {
         let of = |line: &Line| line.visible == visible && line.kind == kind;
-        let some: Vec<(&Line, &Rows)> = lines.0.iter().zip(&rows).filter(|(line, _)| of(line)).collect();
+        let some = lines.0.iter().zip(&rows).filter(|(line, _)| of(line));
         let (rows, starts, closed, ties) = (Rows::default(), vec![0], Vec::new(), Vec::new());
         let mut layer = Layer { kind, visible, places, rows, starts, closed, ties };
-        layer.draw(&some);
+        layer.draw(some);
         layer
     };
     let mut found: Vec<Layer> = each.par_iter().map(layer).collect();
@@ -63,8 +105,7 @@ impl Layer {
     }
 
     /// Drop points that coincide on the grid, join lines that follow one another, find closed strokes.
-    fn draw(&mut self, lines: &[(&Line, &Rows)]) {
-        let mut open: Option<Rows> = None;
+    fn draw<'a>(&mut self, lines: impl Iterator<Item = (&'a Line, &'a RowsOf<'a>)>) {
         let mut tie = Tie { part: -1, edge: -1, other: -1 };
         let mut before: Option<(Tie, [i64; 2], bool)> = None;
         for (line, rows) in lines {
@@ -75,44 +116,38 @@ impl Layer {
             let joins = before.is_some_and(|(tie, end, looped)| tie == own && end == begin && !looped && !loops);
             before = Some((own, end, loops));
             if !joins {
-                self.close(open.take(), tie);
+                self.close(tie);
                 tie = own;
             }
-            let stroke = open.get_or_insert_default();
-            let mut last = None;
-            if joins {
-                // Its first point is the last point of the line before.
-                last = Some(begin);
-            }
-            for (i, (&p, &op)) in rows.points.iter().zip(&rows.op).enumerate() {
+            // The first point of a line that joins is the last point of the line before.
+            let mut last = joins.then_some(begin);
+            for ((&p, &op), &arc) in rows.points.iter().zip(rows.op).zip(rows.arc) {
                 let op = if op == START && joins { LINE } else { op };
                 let still = matches!(op, LINE | ARC) && last == Some(p);
                 if !still {
-                    let shape = usize::try_from(rows.arc[i]).ok().map(|k| rows.shapes[k]);
-                    stroke.push(p, op, shape);
+                    self.rows.push(p, op, usize::try_from(arc).ok().map(|k| rows.shapes[k]));
                 }
                 last = Some(p);
             }
         }
-        self.close(open, tie);
+        self.close(tie);
     }
 
-    /// Ends a stroke. A stroke that rounding has shrunk to a single point is not drawn.
-    fn close(&mut self, stroke: Option<Rows>, tie: Tie) {
-        let Some(mut stroke) = stroke else { return };
-        let n = stroke.op.len();
-        if n == 0 || (n == 1 && stroke.op[0] != WHOLE) {
+    /// Ends the stroke of the last rows. One that rounding has shrunk to a single point is not drawn.
+    fn close(&mut self, tie: Tie) {
+        let begin = self.starts.last().map_or(0, |&start| start as usize);
+        let (points, op) = (&self.rows.points[begin..], &self.rows.op[begin..]);
+        let n = op.len();
+        if n == 0 || (n == 1 && op[0] != WHOLE) {
+            self.rows.truncate(begin);
             return;
         }
         // Two rows form a loop only if one of them is a curve; two straight ones run there and back.
-        let curved = stroke.op.iter().any(|&op| op > LINE);
-        let closed = stroke.points[0] == stroke.points[n - 1] && (n > 3 || (curved && n > 1));
-        if closed && stroke.op[n - 1] == LINE {
-            stroke.points.pop();
-            stroke.op.pop();
-            stroke.arc.pop();
+        let curved = op.iter().any(|&op| op > LINE);
+        let closed = points[0] == points[n - 1] && (n > 3 || (curved && n > 1));
+        if closed && op[n - 1] == LINE {
+            self.rows.truncate(begin + n - 1);
         }
-        self.rows.append(&stroke);
         self.starts.push(self.rows.op.len() as i64);
         self.closed.push(closed);
         self.ties.push(tie);

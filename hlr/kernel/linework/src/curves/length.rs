@@ -49,48 +49,62 @@ fn unit(v: &Vec2) -> Vec2 {
     if size > 0.0 { v.map(|c| c / size) } else { *v }
 }
 
-/// The rows of stroke `s` in order, with the closing line of a closed polyline.
-pub fn rows(strokes: &Strokes, s: usize) -> Vec<Measured> {
+/// The curves of stroke `s` in order, with the closing line of a closed polyline.
+fn pieces(strokes: &Strokes, s: usize) -> Vec<Piece> {
     let unit = 10f64.powi(-(strokes.places as i32));
     let at = |i: usize| strokes.points[i].map(|c| c as f64 * unit);
     let (first, last) = (strokes.starts[s] as usize, strokes.starts[s + 1] as usize);
-    let mut out = Vec::new();
-    let mut push = |piece: Piece| out.push(piece.measured());
+    let mut out = Vec::with_capacity(last - first);
     for i in first..last {
         let shape = || &strokes.arcs[strokes.arc[i] as usize];
         match strokes.op[i] {
             START | CONTROL => {}
-            QUADRATIC => push(Piece::Bezier(3, [at(i - 2), at(i - 1), at(i), at(i)])),
-            CUBIC => push(Piece::Bezier(4, [at(i - 3), at(i - 2), at(i - 1), at(i)])),
-            ARC => {
-                if let Some(arc) = Drawn::between(shape(), &at(i - 1), &at(i), unit) {
-                    push(Piece::Arc(arc));
-                }
-            }
+            QUADRATIC => out.push(Piece::Bezier(3, [at(i - 2), at(i - 1), at(i), at(i)])),
+            CUBIC => out.push(Piece::Bezier(4, [at(i - 3), at(i - 2), at(i - 1), at(i)])),
+            ARC => out.extend(Drawn::between(shape(), &at(i - 1), &at(i), unit).map(Piece::Arc)),
             WHOLE => {
                 let radii = shape().radii.map(|r| r as f64 * unit * 10f64.powi(-(EXTRA as i32)));
                 // Four quarters, so that a flat ellipse is measured accurately.
-                for quarter in 0..4 {
-                    push(Piece::Arc(Drawn::quarter(at(i), radii, quarter)));
-                }
+                out.extend((0..4).map(|quarter| Piece::Arc(Drawn::quarter(at(i), radii, quarter))));
             }
-            _ => push(Piece::Bezier(2, [at(i - 1), at(i), at(i), at(i)])),
+            _ => out.push(Piece::Bezier(2, [at(i - 1), at(i), at(i), at(i)])),
         }
     }
     if strokes.closed[s] && strokes.points[first] != strokes.points[last - 1] {
-        push(Piece::Bezier(2, [at(last - 1), at(first), at(first), at(first)]));
+        out.push(Piece::Bezier(2, [at(last - 1), at(first), at(first), at(first)]));
     }
-    out.retain(|m| m.length > 0.0);
     out
 }
 
-/// Both end points of stroke `s` (grid steps), and the directions in which it would go on there. None if it is closed.
-pub fn ends(strokes: &Strokes, s: usize) -> Option<[([i64; 2], Vec2); 2]> {
-    let (first, last) = (strokes.starts[s] as usize, strokes.starts[s + 1] as usize);
-    if strokes.closed[s] || strokes.op[first] == WHOLE {
+/// The drawn rows of stroke `s` in order, with the closing line of a closed polyline.
+pub fn rows(strokes: &Strokes, s: usize) -> Vec<Measured> {
+    pieces(strokes, s).iter().map(Piece::measured).filter(|m| m.length > 0.0).collect()
+}
+
+/// An end point of a stroke (grid steps), and the direction in which it would go on there.
+pub type End = ([i64; 2], Vec2);
+
+/// Both ends of stroke `s`. None if it is closed.
+pub fn ends(strokes: &Strokes, s: usize) -> Option<[End; 2]> {
+    if !open(strokes, s) {
         return None;
     }
-    let rows = rows(strokes, s);
-    let (begin, end) = (rows.first()?, rows.last()?);
-    Some([(strokes.points[first], begin.begins.map(|c| -c)), (strokes.points[last - 1], end.ends)])
+    // The first and the last that have a length: those between need no measuring.
+    let pieces = pieces(strokes, s);
+    let drawn = |piece: &Piece| Some(piece.measured()).filter(|m| m.length > 0.0);
+    let begin = pieces.iter().find_map(drawn)?;
+    let end = if pieces.len() == 1 { begin } else { pieces.iter().rev().find_map(drawn)? };
+    between(strokes, s, &begin, &end)
+}
+
+/// Both ends of stroke `s`, given its first row and its last one. None if it is closed.
+pub fn between(strokes: &Strokes, s: usize, begin: &Measured, end: &Measured) -> Option<[End; 2]> {
+    let (first, last) = (strokes.starts[s] as usize, strokes.starts[s + 1] as usize);
+    let ends = || [(strokes.points[first], begin.begins.map(|c| -c)), (strokes.points[last - 1], end.ends)];
+    open(strokes, s).then(ends)
+}
+
+/// Whether a stroke has ends.
+fn open(strokes: &Strokes, s: usize) -> bool {
+    !strokes.closed[s] && strokes.op[strokes.starts[s] as usize] != WHOLE
 }

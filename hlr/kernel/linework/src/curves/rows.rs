@@ -6,23 +6,21 @@ use crate::fit::plane::{Vec2, dot, length, minus};
 use crate::lines::drawing::{Curve, Line};
 use hlr_accuracy::LINE_ROUNDED;
 
-/// Rows of one line. cubic: arcs and quadratic curves become cubic ones, for formats that have no others.
-pub fn rows_of(line: &Line, places: usize, accuracy: f64, cubic: bool) -> Rows {
-    let mut out = Rows::default();
+/// Adds the rows of one line. cubic: arcs and quadratic curves become cubic ones, for formats that have no others.
+pub fn add_rows(line: &Line, places: usize, accuracy: f64, cubic: bool, out: &mut Rows) {
     match &line.curve {
         None if straight(&line.flat, LINE_ROUNDED * accuracy) => {
-            chain(&[line.flat[0], line.flat[line.flat.len() - 1]], 1, LINE, places, &mut out);
+            chain(&[line.flat[0], line.flat[line.flat.len() - 1]], 1, LINE, places, out);
         }
-        None => chain(&line.flat, 1, LINE, places, &mut out),
+        None => chain(&line.flat, 1, LINE, places, out),
         Some(Curve::Arc(arc)) => {
-            let (Some(a), Some(b)) = (line.flat.first(), line.flat.last()) else { return out };
-            (if cubic { cubic_rows } else { rows })(arc, &[*a, *b], places, accuracy, &mut out);
+            let (Some(a), Some(b)) = (line.flat.first(), line.flat.last()) else { return };
+            (if cubic { cubic_rows } else { rows })(arc, &[*a, *b], places, accuracy, out);
         }
-        Some(Curve::Chain(c)) if c.degree == 2 && cubic => chain(&raised(&c.points), 3, CUBIC, places, &mut out),
-        Some(Curve::Chain(c)) if c.degree == 2 => chain(&c.points, 2, QUADRATIC, places, &mut out),
-        Some(Curve::Chain(c)) => chain(&c.points, 3, CUBIC, places, &mut out),
+        Some(Curve::Chain(c)) if c.degree == 2 && cubic => chain(&raised(&c.points), 3, CUBIC, places, out),
+        Some(Curve::Chain(c)) if c.degree == 2 => chain(&c.points, 2, QUADRATIC, places, out),
+        Some(Curve::Chain(c)) => chain(&c.points, 3, CUBIC, places, out),
     }
-    out
 }
 
 /// Whether the points lie in order on the line from the first to the last, as those of a circle seen edge-on do.

@@ -4,7 +4,6 @@ use rayon::prelude::*;
 
 use crate::fit::arc::grow;
 use crate::fit::plane::{Vec2, dot, length, minus};
-use crate::lines::drawing::Line;
 
 /// Steps per millimetre to which points are rounded.
 pub const STEPS: f64 = 1024.0;
@@ -56,17 +55,6 @@ pub fn rounded(p: &Vec2) -> Vec2 {
     p.map(|c| (c * STEPS).round_ties_even())
 }
 
-/// The segments of lines, those of one line one after another.
-pub fn segments<'a>(lines: impl Iterator<Item = (usize, &'a Line)>) -> Vec<Segment> {
-    let mut out = Vec::new();
-    for (number, line) in lines {
-        let points: Vec<Vec2> = line.flat.iter().map(rounded).collect();
-        let pairs = points.windows(2).filter(|w| w[0] != w[1]);
-        out.extend(pairs.map(|w| Segment { a: w[0], b: w[1], line: number as u32 }));
-    }
-    out
-}
-
 /// The length of all segments, each in whole steps.
 pub fn ink(segments: &[Segment]) -> f64 {
     segments.iter().map(|s| length(&s.way()).round()).sum()
@@ -78,8 +66,9 @@ pub fn measurable(segments: &[Segment]) -> bool {
     ink(segments) <= MOST_INK * STEPS
 }
 
-pub struct Grid<'a> {
-    segments: &'a [Segment],
+pub struct Grid {
+    /// Those of one line one after another.
+    pub segments: Vec<Segment>,
     low: Vec2,
     cell: f64,
     columns: usize,
@@ -89,9 +78,9 @@ pub struct Grid<'a> {
     members: Vec<u32>,
 }
 
-impl<'a> Grid<'a> {
-    /// reach: how far from a place will be looked, steps.
-    pub fn new(segments: &'a [Segment], reach: f64) -> Grid<'a> {
+impl Grid {
+    /// reach: how far from a place will be looked mostly, steps.
+    pub fn new(segments: Vec<Segment>, reach: f64) -> Grid {
         let mut around = NOWHERE;
         segments.iter().for_each(|s| [s.a, s.b].iter().for_each(|p| grow(&mut around, p)));
         let [low, high] = around;
@@ -100,7 +89,8 @@ impl<'a> Grid<'a> {
         let cell = reach.max((size[0] * size[1] / most).sqrt()).max(size[0].max(size[1]) / most);
         let [columns, rows] = size.map(|s| (s / cell) as usize + 1);
         let mut grid = Grid { segments, low, cell, columns, rows, starts: Vec::new(), members: Vec::new() };
-        let touched: Vec<Vec<(u32, u32)>> = segments
+        let touched: Vec<Vec<(u32, u32)>> = grid
+            .segments
             .par_chunks(CHUNK)
             .enumerate()
             .map(|(chunk, some)| {
@@ -155,6 +145,28 @@ impl<'a> Grid<'a> {
     fn members(&self, cell: usize) -> impl Iterator<Item = &Segment> {
         let range = self.starts[cell] as usize..self.starts[cell + 1] as usize;
         self.members[range].iter().map(|&number| &self.segments[number as usize])
+    }
+
+    /// The segments of each line.
+    pub fn lines(&self) -> Vec<&[Segment]> {
+        self.segments.chunk_by(|a, b| a.line == b.line).collect()
+    }
+
+    /// Whether any segment may lie alongside segment `own` within `reach`, as `beside` would find at some place. All
+    /// segments are looked through: that pays where a few are asked about many places.
+    pub fn any_beside(&self, own: &Segment, reach: f64) -> bool {
+        let way = own.way();
+        let size = length(&way);
+        let along = way.map(|c| c / size);
+        let left = [-along[1], along[0]];
+        self.segments.iter().any(|other| {
+            let ends = [&other.a, &other.b].map(|p| minus(p, &own.a));
+            let ([s, t], [p, q]) = (ends.map(|d| dot(&d, &along)), ends.map(|d| dot(&d, &left)));
+            let on_line = p.abs().max(q.abs()) < ON_LINE - 1.0;
+            let far = p.min(q) > reach + 1.0 || p.max(q) < -reach - 1.0;
+            let beyond = s.max(t) < -1.0 || s.min(t) > size + 1.0;
+            !(on_line || far || beyond) && alongside(&way, &other.way())
+        })
     }
 
     /// Calls `visit` with the segments alongside that the perpendicular to segment `own` through `place` meets within

@@ -34,21 +34,29 @@ pub fn joined(
     straight: bool,
 ) -> Vec<usize> {
     let mut sets = Sets::new(lines.0.len());
-    let ends: Vec<End> =
-        lines.0.par_iter().enumerate().filter(|(i, _)| chosen(*i)).flat_map_iter(|(i, line)| ends(i, line)).collect();
-    let all = ends.iter().all(|end| sought(end.line));
+    let all = (0..lines.0.len()).all(|i| !chosen(i) || sought(i));
+    // The cells of ends that are sought, and those around them: what lies elsewhere does not meet one.
+    let cell_of = |at: &Vec2| at.map(|c| (c / tolerance / 2.0).floor() as i64);
+    let mut around = FxHashSet::default();
+    if !all {
+        let some = (0..lines.0.len()).filter(|&i| chosen(i) && sought(i)).flat_map(|i| ends(i, &lines.0[i], |_| true));
+        for [x, y] in some.map(|end| cell_of(&end.at)) {
+            (-1..=1).for_each(|i| around.extend((-1..=1).map(|j| [x + i, y + j])));
+        }
+    }
+    let near = |at: &Vec2| all || around.contains(&cell_of(at));
+    let ends: Vec<End> = lines
+        .0
+        .par_iter()
+        .enumerate()
+        .filter(|(i, _)| chosen(*i))
+        .flat_map_iter(|(i, line)| ends(i, line, near))
+        .collect();
     // Two ends within half a cell of one another share a cell of at least one of four grids, each shifted by half a cell.
     for shift in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] {
         let cell = |end: &End| (end.visible, [0, 1].map(|i| ((end.at[i] / tolerance + shift[i]) / 2.0).floor() as i64));
-        let looked_at: FxHashSet<(bool, [i64; 2])> =
-            if all { FxHashSet::default() } else { ends.iter().filter(|end| sought(end.line)).map(cell).collect() };
         // Ends of one cell stand side by side, in the order of lines.
-        let mut cells: Vec<_> = ends
-            .par_iter()
-            .enumerate()
-            .map(|(n, end)| (cell(end), n))
-            .filter(|(cell, _)| all || looked_at.contains(cell))
-            .collect();
+        let mut cells: Vec<_> = ends.par_iter().enumerate().map(|(n, end)| (cell(end), n)).collect();
         cells.par_sort_unstable();
         for found in cells.chunk_by(|a, b| a.0 == b.0) {
             let first = &ends[found[0].1];
@@ -66,15 +74,21 @@ pub fn joined(
     (0..lines.0.len()).map(|i| sets.first(i)).collect()
 }
 
-/// Both ends of a line, and where it leaves to from each; none of a line that is a point.
-fn ends(number: usize, line: &Line) -> impl Iterator<Item = End> {
+/// The ends of a line that are `looked_at`, and where it leaves to from each; none of a line that is a point.
+fn ends(number: usize, line: &Line, looked_at: impl Fn(&Vec2) -> bool) -> impl Iterator<Item = End> {
     let points = line.flat.iter().map(rounded);
-    end(number, line.visible, points.clone()).into_iter().chain(end(number, line.visible, points.rev()))
+    let first = end(number, line.visible, points.clone(), &looked_at);
+    first.into_iter().chain(end(number, line.visible, points.rev(), &looked_at))
 }
 
 /// The end of a line where its points begin.
-fn end(line: usize, visible: bool, mut points: impl Iterator<Item = Vec2>) -> Option<End> {
-    let at = points.next()?;
+fn end(
+    line: usize,
+    visible: bool,
+    mut points: impl Iterator<Item = Vec2>,
+    looked_at: impl Fn(&Vec2) -> bool,
+) -> Option<End> {
+    let at = points.next().filter(looked_at)?;
     let way = minus(&points.find(|p| *p != at)?, &at);
     Some(End { line, visible, at, away: way.map(|c| c / length(&way)) })
 }

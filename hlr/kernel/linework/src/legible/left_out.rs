@@ -9,7 +9,8 @@
 
 use rayon::prelude::*;
 
-use super::grid::{Grid, NOWHERE, STEPS, Segment, measurable, rounded, segments};
+use super::grid::{Grid, NOWHERE, STEPS, Segment};
+use super::ink::Ink;
 use super::joints::joined;
 use crate::fit::arc::grow;
 use crate::fit::plane::{Vec2, length};
@@ -27,22 +28,19 @@ pub enum Fate {
 /// Places are looked at every so many pens along a line.
 const PIECE: f64 = 0.5;
 
-/// With fewer lines a second thread gains nothing.
-const FEW_LINES: usize = 256;
-
 /// The fate of each line. pens: widths of hidden and of visible lines, millimetres; accuracy: ends within it meet;
 /// order: the classes, the least important first.
-pub fn left_out(lines: &Lines, pens: [f64; 2], accuracy: f64, order: &[Kind]) -> Vec<Fate> {
+pub fn left_out(lines: &Lines, ink: &Ink, pens: [f64; 2], accuracy: f64, order: &[Kind]) -> Vec<Fate> {
     // Points are rounded to whole steps here: ends that meet may be a step apart.
     let tolerance = (accuracy * STEPS).max(1.0);
-    let mut fates = smaller_than_a_pen(lines, pens, tolerance);
+    let mut fates = smaller_than_a_pen(lines, &ink.boxes, pens, tolerance);
     if !fates.contains(&Fate::Drawn) {
         // All of the drawing is smaller than the pen: a dot is better than nothing.
         return vec![Fate::Drawn; lines.0.len()];
     }
     let of = |visible: bool| {
-        let pen = pens[usize::from(visible)] * STEPS;
-        between_others(lines, visible, pen, tolerance, order, &fates)
+        let (pen, grid) = (pens[usize::from(visible)] * STEPS, ink.grids[usize::from(visible)].as_ref());
+        grid.map_or(Vec::new(), |grid| between_others(lines, grid, pen, tolerance, order, &fates))
     };
     let (hidden, visible) = rayon::join(|| of(false), || of(true));
     hidden.into_iter().chain(visible).for_each(|line| fates[line as usize] = Fate::Between);
@@ -50,19 +48,13 @@ pub fn left_out(lines: &Lines, pens: [f64; 2], accuracy: f64, order: &[Kind]) ->
 }
 
 /// Lines of figures that fit a square as wide as the pen are `Small`, all others `Drawn`.
-fn smaller_than_a_pen(lines: &Lines, pens: [f64; 2], tolerance: f64) -> Vec<Fate> {
-    let box_of = |line: &Line| {
-        let mut around = NOWHERE;
-        line.flat.iter().for_each(|p| grow(&mut around, &rounded(p)));
-        around
-    };
-    let boxes: Vec<[Vec2; 2]> = lines.0.par_iter().with_min_len(FEW_LINES).map(box_of).collect();
+fn smaller_than_a_pen(lines: &Lines, boxes: &[[Vec2; 2]], pens: [f64; 2], tolerance: f64) -> Vec<Fate> {
     let fits = |line: &Line, [low, high]: &[Vec2; 2]| {
         let pen = pens[usize::from(line.visible)] * STEPS;
         (0..2).all(|k| high[k] - low[k] < pen)
     };
     // A figure is small where all its lines are: what meets none of these need not be looked at.
-    let small: Vec<bool> = lines.0.iter().zip(&boxes).map(|(line, around)| fits(line, around)).collect();
+    let small: Vec<bool> = lines.0.iter().zip(boxes).map(|(line, around)| fits(line, around)).collect();
     if !small.contains(&true) {
         return vec![Fate::Drawn; lines.0.len()];
     }
@@ -75,22 +67,19 @@ fn smaller_than_a_pen(lines: &Lines, pens: [f64; 2], tolerance: f64) -> Vec<Fate
     lines.0.iter().zip(&figure).map(fate).collect()
 }
 
-/// The lines of one visibility that lie between others closer than the pen is wide, steps.
-fn between_others(lines: &Lines, visible: bool, pen: f64, tolerance: f64, order: &[Kind], fates: &[Fate]) -> Vec<u32> {
-    let looked_at: Vec<bool> =
-        lines.0.iter().zip(fates.iter()).map(|(l, f)| l.visible == visible && *f == Fate::Drawn).collect();
-    let all = segments(lines.0.iter().enumerate().filter(|(i, _)| looked_at[*i]));
-    if !measurable(&all) {
-        return Vec::new();
-    }
-    let grid = Grid::new(&all, pen);
-    let of: Vec<&[Segment]> = all.chunk_by(|a, b| a.line == b.line).collect();
-    let between: Vec<bool> = of.par_iter().map(|own| everywhere(&grid, own, pen, |_| true, true)).collect();
+/// The lines of a grid that lie between others closer than the pen is wide, steps. Small figures do not count.
+fn between_others(lines: &Lines, grid: &Grid, pen: f64, tolerance: f64, order: &[Kind], fates: &[Fate]) -> Vec<u32> {
+    let counts = |line: u32| fates[line as usize] == Fate::Drawn;
+    let mut of = grid.lines();
+    of.retain(|own| counts(own[0].line));
+    let between: Vec<bool> = of.par_iter().map(|own| everywhere(grid, own, pen, counts, true)).collect();
     if !between.contains(&true) {
         return Vec::new();
     }
     let mut sought = vec![false; lines.0.len()];
     of.iter().zip(&between).for_each(|(own, between)| sought[own[0].line as usize] = *between);
+    let mut looked_at = vec![false; lines.0.len()];
+    of.iter().for_each(|own| looked_at[own[0].line as usize] = true);
     let run = joined(lines, |i| looked_at[i], |i| sought[i], tolerance, true);
     let mut open = vec![true; lines.0.len()];
     for (own, _) in of.iter().zip(&between).filter(|(_, between)| !**between) {
@@ -108,8 +97,8 @@ fn between_others(lines: &Lines, visible: bool, pen: f64, tolerance: f64, order:
     let mut out = Vec::new();
     // A run is open until it is decided to stay: lines in it cannot stand for others.
     for (_, r) in candidates {
-        let stays = |line: u32| !open[run[line as usize]];
-        if runs[r].iter().all(|own| everywhere(&grid, own, pen, stays, false)) {
+        let stays = |line: u32| counts(line) && !open[run[line as usize]];
+        if runs[r].iter().all(|own| everywhere(grid, own, pen, stays, false)) {
             out.extend(runs[r].iter().map(|own| own[0].line));
         } else {
             open[r] = false;
@@ -119,7 +108,7 @@ fn between_others(lines: &Lines, visible: bool, pen: f64, tolerance: f64, order:
 }
 
 /// Whether everywhere along a line one of the `counting` lines lies within a pen: on both sides, or on one.
-fn everywhere(grid: &Grid<'_>, own: &[Segment], pen: f64, counting: impl Fn(u32) -> bool, both: bool) -> bool {
+fn everywhere(grid: &Grid, own: &[Segment], pen: f64, counting: impl Fn(u32) -> bool, both: bool) -> bool {
     own.iter().all(|segment| {
         segment.places(PIECE * pen).all(|place| {
             let (mut left, mut right) = (false, false);

@@ -1,6 +1,7 @@
 //! What a pen can show of a drawing: how close its lines run, and which lines only make a blot.
 //!
-//! 1. `grid`      the segments of lines in square cells, and what lies beside a place
+//! 1. `ink`       the segments and boxes of all lines, in one `grid` of square cells for each visibility, which finds
+//!    what lies beside a place
 //! 2. `spacing`   how much ink lies at which distance from a line alongside
 //! 3. `joints`    which lines meet at their ends
 //! 4. `left_out`  figures smaller than the pen, and lines between others closer than the pen
@@ -9,6 +10,7 @@
 //! depend on their order, and the result on no number of threads.
 
 mod grid;
+pub mod ink;
 mod joints;
 pub mod left_out;
 pub mod spacing;

@@ -2,10 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::grid::{Grid, NOWHERE, STEPS, Segment, ink, measurable, rounded, segments};
-use crate::fit::arc::grow;
-use crate::fit::plane::{Vec2, length};
-use crate::lines::drawing::Lines;
+use super::grid::{Grid, STEPS, Segment, ink};
+use super::ink::Ink;
+use crate::fit::plane::length;
 
 /// Bins per millimetre of the distance.
 pub const BINS: f64 = 64.0;
@@ -16,6 +15,9 @@ const PIECE: f64 = 0.5;
 
 /// Pieces are longer where there would be more than this many: so many places tell a share to a percent.
 const PLACES: f64 = 4_096.0;
+
+/// How many segments can be looked at in the time that a place takes.
+const AT_A_PLACE: f64 = 8.0;
 
 /// With fewer lines, or segments, a second thread gains nothing.
 const ALONE: usize = 128;
@@ -35,30 +37,24 @@ pub struct Spacing {
 
 /// Of hidden lines, of visible lines, and of hidden lines beside visible ones; reaches: for each, up to which distance is
 /// looked, millimetres. None where there is too much ink to be measured.
-pub fn spacings(lines: &Lines, reaches: [f64; 3]) -> [Option<Spacing>; 3] {
-    let of = |visible: bool| segments(lines.0.iter().enumerate().filter(move |(_, line)| line.visible == visible));
-    let ink = rayon::join(|| of(false), || of(true));
-    let [hidden, visible] = [&ink.0, &ink.1].map(|segments| measurable(segments).then_some(&segments[..]));
-    let grids = rayon::join(
-        || hidden.map(|segments| Grid::new(segments, reaches[0] * STEPS)),
-        || visible.map(|segments| Grid::new(segments, reaches[1] * STEPS)),
-    );
-    let measured = |own: Option<&[Segment]>, beside: &Option<Grid>, is_visible: bool, reach: f64| {
-        Some(spacing(lines, is_visible, own?, beside.as_ref()?, reach))
+pub fn spacings(ink: &Ink, reaches: [f64; 3]) -> [Option<Spacing>; 3] {
+    let [hidden, visible] = ink.grids.each_ref().map(Option::as_ref);
+    let [small_hidden, small_visible] = ink.smallest;
+    let measured = |own: Option<&Grid>, smallest: f64, beside: Option<&Grid>, reach: f64| {
+        Some(spacing(own?, smallest, beside?, reach))
     };
-    let of_hidden = || [measured(hidden, &grids.0, false, reaches[0]), measured(hidden, &grids.1, false, reaches[2])];
-    let ([hidden, under], visible) = rayon::join(of_hidden, || measured(visible, &grids.1, true, reaches[1]));
+    let of_hidden =
+        || [measured(hidden, small_hidden, hidden, reaches[0]), measured(hidden, small_hidden, visible, reaches[2])];
+    let ([hidden, under], visible) = rayon::join(of_hidden, || measured(visible, small_visible, visible, reaches[1]));
     [hidden, visible, under]
 }
 
-/// Of the lines of one visibility, which `own` are of, beside those of a grid.
-fn spacing(lines: &Lines, visible: bool, own: &[Segment], grid: &Grid, reach: f64) -> Spacing {
-    let chosen = lines.0.par_iter().with_min_len(ALONE).filter(|line| line.visible == visible);
-    let smallest = chosen.map(|line| size(&line.flat)).reduce(|| f64::INFINITY, f64::min);
+/// Of the lines of one grid beside those of another.
+fn spacing(own: &Grid, smallest: f64, grid: &Grid, reach: f64) -> Spacing {
     let count = (reach * BINS) as usize;
-    let all_ink = ink(own);
+    let all_ink = ink(&own.segments);
     let step = (PIECE * STEPS).max(all_ink / PLACES);
-    let of_lines: Vec<&[Segment]> = own.chunk_by(|a, b| a.line == b.line).collect();
+    let of_lines = own.lines();
     let bins = of_lines
         .par_iter()
         .with_min_len(ALONE)
@@ -73,15 +69,8 @@ fn spacing(lines: &Lines, visible: bool, own: &[Segment], grid: &Grid, reach: f6
     Spacing { bins: bins.into_iter().map(|steps| steps as f64 / STEPS).collect(), ink: all_ink / STEPS, smallest }
 }
 
-/// The side of the square that holds all points, millimetres.
-fn size(points: &[Vec2]) -> f64 {
-    let mut around = NOWHERE;
-    points.iter().for_each(|p| grow(&mut around, &rounded(p)));
-    (around[1][0] - around[0][0]).max(around[1][1] - around[0][1]) / STEPS
-}
-
 /// Adds the pieces of a line, each by the distance of what is nearest beside its middle.
-fn add(grid: &Grid<'_>, line: &[Segment], step: f64, reach: f64, bins: &mut [u64]) {
+fn add(grid: &Grid, line: &[Segment], step: f64, reach: f64, bins: &mut [u64]) {
     let ink = ink(line);
     let count = (ink / step).ceil().max(1.0);
     let piece = ink / count;
@@ -90,6 +79,10 @@ fn add(grid: &Grid<'_>, line: &[Segment], step: f64, reach: f64, bins: &mut [u64
         let way = segment.way();
         let size = length(&way);
         let end = before + size.round();
+        let places = ((end / piece - 0.5).ceil().min(count) - k).max(0.0);
+        if places * AT_A_PLACE > grid.segments.len() as f64 && !grid.any_beside(segment, reach) {
+            k += places;
+        }
         while k < count && (k + 0.5) * piece < end {
             let share = (((k + 0.5) * piece - before) / size).min(1.0);
             let place = [0, 1].map(|i| segment.a[i] + way[i] * share);

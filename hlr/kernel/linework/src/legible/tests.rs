@@ -1,6 +1,7 @@
 //! Combs, rings and dots: what is left out of them, and how crowded they are.
 
 use super::grid::STEPS;
+use super::ink::Ink;
 use super::joints::joined;
 use super::left_out::{Fate, left_out};
 use super::spacing::{Spacing, spacings};
@@ -23,7 +24,7 @@ fn comb(count: usize, pens: f64) -> Lines {
 
 /// Of the lines of one visibility beside those of the same or of the other one.
 fn spacing(lines: &Lines, sorts: [bool; 2], reach: f64) -> Option<Spacing> {
-    let [hidden, visible, under] = spacings(lines, [reach; 3]);
+    let [hidden, visible, under] = spacings(&Ink::of(lines, [reach; 2]), [reach; 3]);
     match sorts {
         [true, _] => visible,
         [false, false] => hidden,
@@ -32,7 +33,7 @@ fn spacing(lines: &Lines, sorts: [bool; 2], reach: f64) -> Option<Spacing> {
 }
 
 fn fates(lines: &Lines) -> Vec<Fate> {
-    left_out(lines, [PEN, PEN], ACCURACY, &[Kind::SHARP])
+    left_out(lines, &Ink::of(lines, [2.0 * PEN; 2]), [PEN, PEN], ACCURACY, &[Kind::SHARP])
 }
 
 fn drawn(lines: &Lines) -> Vec<usize> {
@@ -169,4 +170,31 @@ fn what_meets_no_sought_line_changes_nothing_about_those() {
         }
     }
     assert!(alone > 20 && together > 20 && met > 20, "{alone} {together} {met}");
+}
+
+#[test]
+fn segments_beside_which_nothing_lies_at_any_place_are_told_at_once() {
+    let mut state = 9u64;
+    let mut random = |n: u64| {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        ((state >> 33) % n) as f64
+    };
+    let (mut found, mut told) = (0, 0);
+    for _ in 0..300 {
+        let mut end = || [random(40), random(40)];
+        let lines = Lines((0..6).map(|_| line(vec![end(), end()])).collect());
+        let [_, Some(grid)] = Ink::of(&lines, [1.0; 2]).grids else { panic!("little ink") };
+        for own in &grid.segments {
+            for reach in [0.5 * STEPS, 3.0 * STEPS] {
+                let mut some = false;
+                own.places(0.05 * STEPS)
+                    .for_each(|place| grid.beside(own, &place, reach, |_, _| std::mem::replace(&mut some, true)));
+                let may = grid.any_beside(own, reach);
+                assert!(may || !some);
+                found += usize::from(some);
+                told += usize::from(!may);
+            }
+        }
+    }
+    assert!(found > 200 && told > 1000, "{found} {told}");
 }
