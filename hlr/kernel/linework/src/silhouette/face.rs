@@ -1,8 +1,11 @@
 //! f = N . v on the surface of one face, in model coordinates, with its roots and derivatives.
 
+use std::f64::consts::TAU;
+
 use super::Model;
 use hlr_brep::geometry::surface::Surface;
-use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, scaled, sub, unit};
+use hlr_brep::geometry::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
+use hlr_exact::elementary::{atan2, hypot};
 
 pub struct Face<'a> {
     surface: &'a Surface,
@@ -111,6 +114,10 @@ impl<'a> Face<'a> {
         self.derivatives(uv).map(|d| length(&d))
     }
 
+    pub fn is_sphere(&self) -> bool {
+        matches!(self.surface, Surface::Sphere(..))
+    }
+
     /// Whether the surface may have wrinkles. Spheres turn over once, cylinders and cones along whole rulings from border
     /// to border: none of them has.
     pub fn has_wrinkles(&self) -> bool {
@@ -154,6 +161,25 @@ impl<'a> Face<'a> {
             }
             _ => None,
         }
+    }
+
+    /// The middle of the fold between two places of a sphere seen from infinitely far away: it is a great circle. None
+    /// for other surfaces, and in perspective.
+    fn middle_on_sphere(&self, a: &Place, b: &Place) -> Option<Place> {
+        let Surface::Sphere(frame, _) = self.surface else { return None };
+        if self.model.view.perspective {
+            return None;
+        }
+        let [origin, x, y, z] = frame.vectors();
+        let centre = self.moved(&origin);
+        let arm = sub(&a.point, &centre);
+        let normal = unit(&add(&a.normal, &b.normal))?;
+        let arm = scaled(&normal, length(&arm) * dot(&arm, &a.normal).signum());
+        let [east, north, up] = [x, y, z].map(|d| dot(&self.turned(&d), &arm));
+        let beside = 0.5 * (a.uv[0] + b.uv[0]);
+        let u = atan2(north, east);
+        let u = u + ((beside - u) / TAU).round() * TAU;
+        Some(Place { uv: [u, atan2(up, hypot(east, north))], point: add(&centre, &arm), normal })
     }
 
     /// Steps of u and v per unit of length along the line of sight projected into the tangent plane.
@@ -239,6 +265,10 @@ pub fn onto(face: &Face, start: [f64; 2], reach: f64) -> Option<Place> {
         for k in 0..2 {
             uv[k] += cut * way[k] / speed[k];
         }
+        // The error of the next step is of the order of this one's square.
+        if f.abs() < 1e-7 {
+            break;
+        }
     }
     let place = face.at(uv)?;
     let near = length(&sub(&place.point, &from)) <= reach;
@@ -251,9 +281,12 @@ pub fn onto(face: &Face, start: [f64; 2], reach: f64) -> Option<Place> {
 const BOW: f64 = 0.2;
 
 /// The middle between two places of one face, moved onto the silhouette.
-pub fn between(face: &Face, a: &Place, b: &Place, share: f64) -> Option<Place> {
+pub fn middle(face: &Face, a: &Place, b: &Place) -> Option<Place> {
+    if let Some(place) = face.middle_on_sphere(a, b) {
+        return Some(place);
+    }
     let size = length(&sub(&b.point, &a.point));
-    let uv = [0, 1].map(|k| a.uv[k] + (b.uv[k] - a.uv[k]) * share);
+    let uv = [0, 1].map(|k| 0.5 * (a.uv[k] + b.uv[k]));
     let place = onto(face, uv, BOW * size)?;
     // It has to lie between them, or the curve would turn back.
     let chord = sub(&b.point, &a.point);

@@ -1,7 +1,7 @@
 //! Adds points on the surface between two crossings of one triangle, and finds cusps.
 
 use super::Model;
-use super::face::{Face, Place, between};
+use super::face::{Face, Place, middle};
 use hlr_accuracy::OUTLINE_VALLEY;
 use hlr_brep::geometry::vector::{Vector, dot, from_line, length, sub};
 
@@ -62,7 +62,7 @@ pub fn stretches(model: &Model, triangle: i32, face: &Face, from: Place, to: Pla
     if places.len() == 2 && astray(face, &from, &to, chord) {
         return Vec::new();
     }
-    let bend: Vec<f64> = places.iter().map(|p| face.radial(p.uv) * chord).collect();
+    let bend = bends(face, &places, chord);
     let piece = |a: &Place, b: &Place, concave: bool| {
         let rise = |concave| [a, b].map(|at| rise(model, &[triangle], &at.point, &outward(&at.normal, concave)));
         let deeper = || if face.radial(a.uv) < face.radial(b.uv) { a } else { b };
@@ -92,6 +92,17 @@ pub fn stretches(model: &Model, triangle: i32, face: &Face, from: Place, to: Pla
         }
     }
     out
+}
+
+/// At each place the curvature along the sight, times the chord tolerance.
+fn bends(face: &Face, places: &[Place], chord: f64) -> Vec<f64> {
+    let bend = |p: &Place| face.radial(p.uv) * chord;
+    if !face.is_sphere() {
+        return places.iter().map(bend).collect();
+    }
+    // All over a sphere it is the same, but a pole does not tell.
+    let [a, b] = [&places[0], &places[places.len() - 1]].map(bend);
+    vec![if a.abs() > b.abs() { a } else { b }; places.len()]
 }
 
 /// Steps in which a valley is crossed.
@@ -133,7 +144,7 @@ fn divide(face: &Face, a: &Place, b: &Place, chord: f64, depth: u32, out: &mut V
     if face.sagitta(a, b).is_some_and(|rise| rise <= chord) {
         return;
     }
-    let Some(middle) = between(face, a, b, 0.5) else { return };
+    let Some(middle) = middle(face, a, b) else { return };
     // The sagitta alone may be 0 by chance where the curve bends back and forth, so the normals are compared, too.
     if from_line(&middle.point, &a.point, &b.point) <= chord {
         return;
@@ -147,7 +158,7 @@ fn divide(face: &Face, a: &Place, b: &Place, chord: f64, depth: u32, out: &mut V
 fn cusp(face: &Face, a: &Place, b: &Place, concave_at_a: bool) -> Place {
     let (mut low, mut high) = (*a, *b);
     for _ in 0..40 {
-        let Some(middle) = between(face, &low, &high, 0.5) else { break };
+        let Some(middle) = middle(face, &low, &high) else { break };
         if (face.radial(middle.uv) < 0.0) == concave_at_a {
             low = middle;
         } else {

@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use hlr_brep::geometry::curve::Curve;
 use hlr_brep::geometry::surface::Surface;
-use hlr_brep::geometry::vector::{Vector, dot, length, sub};
+use hlr_brep::geometry::vector::{Vector, dot, length, scaled, sub};
 use hlr_mesh::topology::topology;
 
-use super::face::Face;
+use super::face::{Face, middle};
 use super::refine::Stretch;
 use super::trace::{Traced, fill_shallow, trace};
 use super::{FaceRecord, Model};
@@ -135,6 +135,30 @@ fn outlines_of_a_sphere_are_circles_on_it_where_it_is_seen_edge_on() {
         }
         let Some(Curve::Ellipse { p, a, b }) = &line.curve else { panic!("{:?}", line.curve) };
         assert!(length(p) < 1e-9 && (length(a) - RADIUS).abs() < 1e-9 && (length(b) - RADIUS).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn the_middle_of_a_stretch_on_a_sphere_lies_on_it_and_on_the_outline() {
+    for inward in [false, true] {
+        zone().seen(inward, |model| {
+            let face = Face::new(model, 0).expect("a face");
+            let half = 0.5 * TAU;
+            // Along a meridian, also where u has turned around, and over the pole.
+            for (a, b, want) in [
+                ([0.0, 0.2], [0.0, 0.5], [0.0, 0.35]),
+                ([TAU + half, -0.2], [TAU + half, 0.9], [TAU + half, 0.35]),
+                ([0.0, 0.24 * TAU], [half, 0.24 * TAU], [0.5 * half, 0.25 * TAU]),
+            ] {
+                let [a, b] = [a, b].map(|uv| face.at(uv).expect("a place"));
+                let found = middle(&face, &a, &b).expect("a middle");
+                assert!(length(&sub(&found.point, &face.point(want))) < 1e-12, "{found:?}");
+                assert!(length(&sub(&found.point, &face.point(found.uv))) < 1e-12, "{found:?}");
+                assert!((found.uv[0] - want[0]).abs() < 1.6 && (found.uv[1] - want[1]).abs() < 1e-9, "{found:?}");
+                let out = if inward { -RADIUS } else { RADIUS };
+                assert!(length(&sub(&found.point, &scaled(&found.normal, out))) < 1e-12, "{found:?}");
+            }
+        });
     }
 }
 
