@@ -114,6 +114,12 @@ impl<'a> Face<'a> {
         self.derivatives(uv).map(|d| length(&d))
     }
 
+    /// Whether f is a cosine of u: on a cylinder in a parallel view. Between places less than half a turn apart at which
+    /// it has one sign, it is nowhere nearer to zero than at one of them.
+    pub fn is_cosine(&self) -> bool {
+        matches!(self.surface, Surface::Cylinder(..)) && !self.model.view.perspective
+    }
+
     pub fn is_sphere(&self) -> bool {
         matches!(self.surface, Surface::Sphere(..))
     }

@@ -56,6 +56,9 @@ const CUSP: f64 = 1e-5;
 /// single chord, however often the face turns over along it.
 const ASKED: usize = 8;
 
+/// A little less than half a turn of a cylinder, radians.
+const HALF_TURN: f64 = 3.0;
+
 /// Faces and vertices of their borders at which a triangle beside the border folds over (`dented`). It may lie in front
 /// of the next chord of the border as well.
 pub type Dents = FxHashSet<(i32, i32)>;
@@ -102,7 +105,12 @@ fn seen_edge_on(model: &Model, side: &Side) -> bool {
     let middle = dot(&side.normal, &model.sight(&along(&a, &sub(&b, &a), 0.5)));
     let f = [side.f[0], middle, side.f[1]];
     let swings = f.windows(2).any(|w| (w[0] - w[1]).abs() > SWING);
-    edge_on(&f) || (swings && edge_on(&asked(side).map(|(_, f)| f)))
+    edge_on(&f) || (swings && !follows_cosine(side) && edge_on(&asked(side).map(|(_, f)| f)))
+}
+
+/// Whether the ends alone tell that a face turns over nowhere between them, and how nearly it is seen edge-on.
+fn follows_cosine(side: &Side) -> bool {
+    side.face.as_ref().is_some_and(Face::is_cosine) && (side.uv[1][0] - side.uv[0][0]).abs() < HALF_TURN
 }
 
 fn dented(model: &Model, side: &Side) -> bool {
@@ -211,8 +219,18 @@ fn uv_at(side: &Side, t: f64) -> [f64; 2] {
 /// is 0 where the face is parallel to the line of sight.
 fn turns(side: &Side) -> Vec<(f64, f64)> {
     let Some(face) = &side.face else { return Vec::new() };
+    let [first, last] = side.f.map(sign);
+    if first == last && first != 0.0 && follows_cosine(side) { vec![(0.0, first)] } else { searched(side, face) }
+}
+
+/// 0 where a face is parallel to the line of sight.
+fn sign(f: f64) -> f64 {
+    if f.abs() <= TIE { 0.0 } else { f.signum() }
+}
+
+/// `turns`, found by asking at places along the edge.
+fn searched(side: &Side, face: &Face) -> Vec<(f64, f64)> {
     let uv = |t: f64| uv_at(side, t);
-    let sign = |f: f64| if f.abs() <= TIE { 0.0 } else { f.signum() };
     let asked: Vec<(f64, f64)> = asked(side).into_iter().filter(|&(_, f)| sign(f) != 0.0).collect();
     let Some(&(_, first)) = asked.first() else { return vec![(0.0, 0.0)] };
     let mut out = vec![(0.0, sign(first))];
@@ -238,6 +256,56 @@ mod tests {
     use crate::lines::View;
     use hlr_brep::geometry::surface::Surface;
 
+    /// Along a cylinder the ends of a chord tell what asking in between does.
+    #[test]
+    fn a_cylinder_turns_over_where_the_ends_of_a_chord_say_so() {
+        let surfaces = [Surface::read(2, &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 2.0])];
+        let record = FaceRecord {
+            surface: Some(0),
+            place: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]],
+            sign: 1.0,
+            curved: true,
+        };
+        let mut model = nothing(&surfaces, record);
+        model.view.away = [0.0, 0.8, 0.6];
+        let face = || Face::new(&model, 0).expect("a face");
+        let (mut kept, mut turned) = (0, 0);
+        for k in 0..4000 {
+            let from = f64::from(k) * 0.01;
+            let uv = [[from, 0.0], [from + f64::from(k % 29) * 0.1, f64::from(k % 7)]];
+            let f = uv.map(|uv| face().f(uv).expect("a normal"));
+            let side =
+                Side { triangle: 0, number: 0, corners: [0, 1], uv, f, face: Some(face()), normal: [0.0, 0.0, 1.0] };
+            let (found, wanted) = (turns(&side), searched(&side, &face()));
+            assert_eq!(found, wanted, "{uv:?} {f:?}");
+            *(if found.len() > 1 { &mut turned } else { &mut kept }) += 1;
+            let least = asked(&side).iter().fold(f64::INFINITY, |least, (_, f)| least.min(f.abs()));
+            let ends = f[0].abs().min(f[1].abs());
+            assert!(found.len() > 1 || least >= ends - 1e-12, "{uv:?} {least} {ends}");
+        }
+        assert!(kept > 1000 && turned > 1000, "{kept} {turned}");
+    }
+
+    /// No mesh, and one face.
+    fn nothing(surfaces: &[Option<Surface>], face: FaceRecord) -> Model<'_> {
+        Model {
+            points: &[],
+            triangles: &[],
+            triangle_face: &[],
+            edges: &[],
+            offsets: &[0],
+            incident: &[],
+            smooth: &[],
+            source: &[],
+            corner: &[],
+            uv: &[],
+            faces: vec![face],
+            surfaces,
+            view: View { origin: [0.0; 3], away: [0.0, 1.0, 0.0], perspective: false },
+            chord: 0.01,
+        }
+    }
+
     /// Corners of a planar face on one border line, off it by rounding: the needle between them may have any normal.
     #[test]
     fn a_needle_has_the_normal_of_its_plane() {
@@ -255,17 +323,9 @@ mod tests {
             points: &points,
             triangles: &[[0, 1, 2], [0, 1, 3]],
             triangle_face: &[0, 0],
-            edges: &[],
-            offsets: &[0],
-            incident: &[],
-            smooth: &[],
-            source: &[],
             corner: &[[0, 1, 2], [0, 1, 3]],
             uv: &[[0.0; 2]; 4],
-            faces: vec![face(surface)],
-            surfaces: &surfaces,
-            view: View { origin: [0.0; 3], away: [0.0, 1.0, 0.0], perspective: false },
-            chord: 0.01,
+            ..nothing(&surfaces, face(surface))
         };
         assert_eq!(plane_normal(&model(Some(0)), 0), Some([0.0, 1.0, 0.0]));
         assert_eq!(plane_normal(&model(None), 0), None);
