@@ -111,9 +111,9 @@ def resolve(view: View, options: Options, frame: Frame, bounds: Floats) -> Camer
 
 def _to_model(frame: Frame, v: Vector) -> Vector:
     """World (z up) to model axes: multiplied by the transpose of `frame.up`, which is a rotation."""
-    u = frame.up
-    x, y, z = (u[0][k] * v[0] + u[1][k] * v[1] + u[2][k] * v[2] + 0.0 for k in range(3))
-    return (x, y, z)
+    (a, b, c), (d, e, f), (g, h, i) = frame.up
+    x, y, z = v
+    return (a * x + d * y + g * z + 0.0, b * x + e * y + h * z + 0.0, c * x + f * y + i * z + 0.0)
 
 
 def _eye(perspective: Perspective, direction: Vector, frame: Frame, bounds: Floats) -> tuple[Vector, Vector, Vector]:

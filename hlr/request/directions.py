@@ -100,7 +100,7 @@ def axes(direction: Vector, up_hint: Vector | None) -> tuple[Vector, Vector]:
         along_z = abs(direction[2]) > 1.0 - 1e-12
         up_hint = (0.0, 1.0 if direction[2] > 0.0 else -1.0, 0.0) if along_z else (0.0, 0.0, 1.0)
     side = cross(normalized(up_hint, "up"), direction)
-    if max(abs(c) for c in side) < 1e-9:
+    if max(map(abs, side)) < 1e-9:
         raise ViewError("up is parallel to the view direction: give another direction for up")
     right = normalized(side, "right")
     # The cross product of unit vectors is a unit vector up to rounding.

@@ -7,6 +7,7 @@ a point has the same digits in both, and sums of relative coordinates are exact.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -46,6 +47,7 @@ def grid(values: npt.NDArray[np.float64], places: int) -> Ints:
     return np.rint(values * 10.0**places).astype(np.int64)
 
 
+@lru_cache(maxsize=256)
 def number(value: float, places: int = 6) -> str:
     """One number, compact: ".5", "-12.25", "0"."""
     steps = round(value * 10**places)

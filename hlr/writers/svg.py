@@ -138,10 +138,10 @@ def description(drawing: Drawing) -> str:
     seen = held(drawing.lines).visible()
     cut = "" if drawing.section is None else ", cut by a plane"
     cut += " that steps" if drawing.section is not None and drawing.section.corners else ""
-    visible, hidden = int(seen.sum()), int(len(seen) - seen.sum())
+    visible = int(seen.sum())
     return (
         f"Hidden-line drawing of {drawing.source}{cut}: view {drawing.view.name}, {drawing.view.projection}, scale "
-        f"{ratio(drawing.scale)}, {counted(visible, 'visible line')} and {counted(hidden, 'hidden line')}."
+        f"{ratio(drawing.scale)}, {counted(visible, 'visible line')} and {counted(len(seen) - visible, 'hidden line')}."
     )
 
 
