@@ -12,7 +12,7 @@
 use rayon::prelude::*;
 
 use super::pierced::{Meeting, at_meeting};
-use super::plane::{Vec2, length, minus, to_segment};
+use super::plane::{length, minus, to_segment};
 use super::route::{Border, Change, Goal, Move, Route};
 use crate::lines::View;
 use hlr_accuracy::{JUNCTION_ALONG, JUNCTION_EDGE, JUNCTION_MET, JUNCTION_OUTLINE, JUNCTION_TOUCH};
@@ -61,9 +61,6 @@ fn covered(routes: &[Route], changes: &[Change], accuracy: f64, contact: f64, vi
             let mut best = (f64::INFINITY, None);
             for &(_, j, k) in group {
                 let other = &routes[j];
-                if other.chain == own.chain {
-                    continue;
-                }
                 let (away, s) = to_segment(at, &other.flat[k], &other.flat[k + 1]);
                 let lifted = own.border == Border::Outline || other.border == Border::Outline;
                 let reach = if lifted { JUNCTION_OUTLINE } else { JUNCTION_EDGE } * accuracy;
@@ -153,7 +150,7 @@ fn changing(routes: &[Route]) -> Vec<[bool; 2]> {
     of_chain
 }
 
-/// Visible borders near changes, as (change, line, segment).
+/// Visible borders of other chains near changes, as (change, line, segment).
 fn near(routes: &[Route], changes: &[Change], reach: f64) -> Vec<(usize, usize, usize)> {
     let mut out: Vec<(usize, usize, usize)> = routes
         .par_iter()
@@ -164,10 +161,13 @@ fn near(routes: &[Route], changes: &[Change], reach: f64) -> Vec<(usize, usize, 
                 let [low, high] = [f64::min, f64::max].map(|of| [of(w[0][0], w[1][0]), of(w[0][1], w[1][1])]);
                 let from = changes.partition_point(|c| c.at[0] < low[0] - reach);
                 let to = changes.partition_point(|c| c.at[0] <= high[0] + reach);
-                let beside = move |at: &Vec2| at[1] >= low[1] - reach && at[1] <= high[1] + reach;
-                (from..to)
-                    .filter(move |&c| beside(&changes[c].at) && to_segment(&changes[c].at, &w[0], &w[1]).0 <= reach)
-                    .map(move |c| (c, j, k))
+                let near = move |Change { at, ends }: &Change| {
+                    at[1] >= low[1] - reach
+                        && at[1] <= high[1] + reach
+                        && routes[ends[0].0].chain != route.chain
+                        && to_segment(at, &w[0], &w[1]).0 <= reach
+                };
+                (from..to).filter(move |&c| near(&changes[c])).map(move |c| (c, j, k))
             })
         })
         .collect();
@@ -253,6 +253,7 @@ fn within(route: &Route, u: f64, reach: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::plane::Vec2;
     use super::*;
     use hlr_brep::geometry::curve::Vec3;
 
