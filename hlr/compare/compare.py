@@ -13,6 +13,7 @@ from hlr.common.numbers import typed
 from hlr.compare.comparison import Comparison
 from hlr.compare.lines.motion import Motion
 from hlr.compare.matching.judge import judged
+from hlr.compare.matching.pairing import with_stated_view
 from hlr.compare.matching.register import translation
 from hlr.compare.matching.similarity import laid_share, similarity
 from hlr.compare.matching.views import by_view
@@ -64,7 +65,7 @@ def compare(
     tolerance_mm  how far apart on paper two lines may lie that count as the same; 0.001 to 10
     register      "off": as they lie; "translation": b is first moved to where most of its lines match those of a;
                   "similarity": it is turned by quarters, mirrored and scaled as well; "auto": "off" for two drawings
-                  of hlr, else "similarity"
+                  of hlr, unless one is a page and the other a view of it by itself, else "similarity"
     page          name or label of the page of a FreeCAD document (.FCStd) that is a or b; "Page/View": one view of it
     view          of the model, as of `hlr.draw`; None: the view that the other side states, or else the named one that
                   it shows, which is found
@@ -101,8 +102,12 @@ def compare(
     if scales is not None:
         after = replace(after, pieces=after.pieces.mapped(np.eye(2) * (scales[0] / scales[1])))
     before, after = _divided(before, after, tolerance_mm)
+    pages = len(before.about.views), len(after.about.views)
+    before, after = with_stated_view(before, after), with_stated_view(after, before)
     if register == "auto":
-        register = "similarity" if before.about.foreign or after.about.foreign else "off"
+        # A view by itself has no place on a page.
+        by_itself = (len(before.about.views), len(after.about.views)) != pages
+        register = "similarity" if by_itself or before.about.foreign or after.about.foreign else "off"
     if before.about.views or after.about.views:
         moving = register != "off" or scales is not None
         findings, after, views = by_view(before, after, tolerance_mm, moving)

@@ -100,6 +100,20 @@ def test_a_line_that_is_moved_has_moved(number, x, y):
     assert 0.1 < max(each.moved_mm for each in found.differences) < 0.3
 
 
+@pytest.mark.parametrize("ending", ["svg", "pdf", "dxf", "json"])
+def test_an_edge_that_was_moved_by_a_millimetre_has_moved_whatever_its_file_rounds(ending, tmp_path):
+    """Ten tolerances: half of such lines lay a hundred-thousandth farther off, and were gone and new."""
+    heights = 7.123456789 + 5.0 * np.arange(12.0)
+
+    def posts(by):
+        return drawing([line([[x + by, 0.0], [x + by, 20.0]]) for x in np.sqrt(heights) * 20.0])
+
+    posts(0.0).save(tmp_path / f"old.{ending}")
+    for by in (1.0, -1.0):
+        found = compare(tmp_path / f"old.{ending}", posts(by), tolerance_mm=0.1, register="off")
+        assert set(lengths(found)) == {"moved"}, (by, found)
+
+
 def test_how_far_and_how_much_has_moved_is_exact():
     lines = plate()
     found = compare(drawing(lines), drawing([moved(lines[0], 0.0, 0.2), *lines[1:]]))

@@ -31,11 +31,15 @@ class Stage:
     reach: float = 1.0
 
 
+_MOVED = 10.1
+"""Tolerances by which a line may be displaced that is still the same: ten, and what files round. Designers move edges by a
+whole millimetre, which the usual ten tolerances are at full size; then the ending of a file must not decide."""
+
 STAGES = (
     Stage(None, ("kind", "visible")),
     Stage("class changed", ("visible",)),
     Stage("visibility changed", ()),
-    Stage("moved", ("kind", "visible"), reach=10.0),
+    Stage("moved", ("kind", "visible"), reach=_MOVED),
 )
 
 

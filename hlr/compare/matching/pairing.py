@@ -46,6 +46,15 @@ def with_views_of(side: Side, other: Side) -> Side:
     return replace(side, pieces=replace(side.pieces, view=near[number]), about=about)
 
 
+def with_stated_view(side: Side, other: Side) -> Side:
+    """A drawing of one view that it states, as the view of that name where the other side is a page that has it."""
+    stated = side.about.stated
+    if side.about.views or stated is None or stated.name not in other.about.views:
+        return side
+    pieces = replace(side.pieces, view=np.zeros_like(side.pieces.view))
+    return replace(side, pieces=pieces, about=replace(side.about, views=(stated.name,)))
+
+
 def pairs_of(before: Side, after: Side) -> list[Pair]:
     """Each view of either page once, in the order of the first page; then lines that belong to none."""
     one, other = before.about.views, after.about.views
