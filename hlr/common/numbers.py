@@ -47,4 +47,19 @@ def typed_below(value: float, digits: int) -> str:
     return typed(math.floor(value / step) * step, digits)
 
 
+def typed_value(value: Any, between: str = ",") -> str:
+    """What an option was given, in a message that refuses it.
+
+    A number, or a tuple or list of numbers, as the command line takes it, with this between them; anything else as
+    Python writes it. A number that is not 0 is not shown as 0.
+    """
+    if isinstance(value, tuple | list) and value and all(map(is_real, value)):
+        return between.join(map(typed_value, value))
+    if not is_real(value):
+        return repr(value)
+    number = float(value)
+    shown = typed(number, 12, 15)
+    return f"{number:g}" if shown == "0" and number else shown
+
+
 _LONGEST = 1e15

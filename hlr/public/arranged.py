@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 from hlr.common.keywords import expect_record
-from hlr.common.numbers import is_finite
+from hlr.common.numbers import is_finite, typed_value
 from hlr.common.threads import at_most
 from hlr.drawing.drawing import Drawing
 from hlr.errors import OptionError, ViewError
@@ -129,7 +129,7 @@ def check_room(room: Any) -> None:
         or not all(map(is_finite, numbers))
         or not (numbers[0] < numbers[2] and numbers[1] < numbers[3])
     ):
-        raise OptionError(f"room needs two corners in millimetres, such as 20,60,287,200, not {room!r}")
+        raise OptionError(f"room needs two corners in millimetres, such as 20,60,287,200, not {typed_value(room)}")
 
 
 def check_arranged(options: Options) -> None:

@@ -36,7 +36,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from hlr.common.numbers import typed, typed_below
+from hlr.common.numbers import typed, typed_below, typed_value
 from hlr.errors import OptionError
 
 # Which accuracy is used.
@@ -289,12 +289,10 @@ def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) ->
     Raises OptionError where the accuracy is not positive, as coarse as the drawing, or finer than can be computed.
     """
     if not accuracy > 0.0 or accuracy == float("inf"):
-        raise OptionError(
-            f"accuracy {typed(accuracy, places=15)} mm cannot be kept: give a positive length, such as 0.05"
-        )
+        raise OptionError(f"accuracy {typed_value(accuracy)} mm cannot be kept: give a positive length, such as 0.05")
     if diagonal > 0.0 and accuracy > diagonal / 4.0:
         raise OptionError(
-            f"accuracy {typed(accuracy, places=15)} mm is too coarse for a drawing of {typed(diagonal, 3, 15)} mm: "
+            f"accuracy {typed_value(accuracy)} mm is too coarse for a drawing of {typed(diagonal, 3, 15)} mm: "
             f"give at most {typed_below(diagonal / 4.0, 3)}, or a larger scale"
         )
     finest = diagonal * (FINEST_BREP if brep else FINEST_MESH)
@@ -302,7 +300,7 @@ def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) ->
         digit = 10.0 ** math.floor(math.log10(finest))
         given = math.ceil(finest / digit) * digit  # rounded up: the number that is named has to be accepted
         raise OptionError(
-            f"accuracy {typed(accuracy, places=15)} mm is too fine for a drawing of {typed(diagonal, 3, 15)} mm: "
+            f"accuracy {typed_value(accuracy)} mm is too fine for a drawing of {typed(diagonal, 3, 15)} mm: "
             f"give at least {typed(given, 1, 15)}, or a smaller scale"
         )
     model = accuracy / per_model

@@ -9,7 +9,7 @@ from typing import Any, Protocol, cast
 
 import numpy as np
 
-from hlr.common.numbers import is_finite, is_real, typed
+from hlr.common.numbers import is_finite, is_real, typed, typed_value
 from hlr.errors import OptionError, ViewError
 from hlr.request.directions import check_directions
 from hlr.request.drawing_effects import left_to_view
@@ -60,7 +60,7 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
         check_accuracy(options.accuracy)
     within = options.within
     if within is not None and not (is_finite(within) and within > 0.0):
-        raise OptionError(f"within needs a positive number of seconds, not {_shown(within)}")
+        raise OptionError(f"within needs a positive number of seconds, not {typed_value(within)}")
     if options.see_through and options.report:
         raise OptionError("report measures what all parts hide: leave it out, or see_through")
     if options.section is not None:
@@ -105,7 +105,7 @@ def _with_size(options: Options) -> Options:
         if number is None or not 1.0 / MOST_SCALE <= number <= MOST_SCALE:
             limits = f", from 1:{typed(MOST_SCALE, 10)} to {typed(MOST_SCALE, 10)}:1" if number and number > 0.0 else ""
             raise OptionError(
-                f"scale {_shown(scale)} cannot be drawn: give a positive number or a ratio, 0.5 or 1:2{limits}"
+                f"scale {typed_value(scale)} cannot be drawn: give a positive number or a ratio, 0.5 or 1:2{limits}"
             )
         if number != scale:
             options = replace(options, scale=number)
@@ -118,7 +118,7 @@ def _with_size(options: Options) -> Options:
     elif fit is not None and (not _is_vector(fit, 2) or min(fit) < SMALLEST_FIT or max(fit) > LARGEST_FIT):
         raise OptionError(
             "fit needs a positive width and height in millimetres, such as 277x190, or a sheet such as A4, not "
-            f"{_shown(fit)}"
+            f"{typed_value(fit, 'x')}"
         )
     if page is not None:
         _check_page(page)
@@ -137,13 +137,13 @@ def _check_page(page: Any) -> None:
 def check_accuracy(accuracy: float) -> None:
     """Raises OptionError unless the accuracy is a positive length."""
     if not (is_finite(accuracy) and accuracy > 0.0):
-        raise OptionError(f"accuracy {_shown(accuracy)} mm cannot be kept: give a positive length, such as 0.05")
+        raise OptionError(f"accuracy {typed_value(accuracy)} mm cannot be kept: give a positive length, such as 0.05")
 
 
 def check_crease(crease: float) -> None:
     """Raises OptionError unless the crease angle is 0 to 180 degrees."""
     if not is_real(crease) or not 0.0 <= crease <= 180.0:
-        raise OptionError(f"crease {_shown(crease)} is not a crease angle: give 0 to 180 degrees")
+        raise OptionError(f"crease {typed_value(crease)} is not a crease angle: give 0 to 180 degrees")
 
 
 def checked_views(views: Sequence[View], options: CameraOptions) -> list[View]:
@@ -192,12 +192,12 @@ def _window(window: Any) -> None:
     if not _is_vector(window, 4) or max(map(abs, window)) > LARGEST_FIT:
         raise OptionError(
             f"window needs x0,y0,x1,y1 in millimetres, four numbers of at most {typed(LARGEST_FIT, 8)}, "
-            f"not {_shown(window)}"
+            f"not {typed_value(window)}"
         )
     x0, y0, x1, y1 = window
     if x1 - x0 < SMALLEST_FIT or y1 - y0 < SMALLEST_FIT:
         raise OptionError(
-            f"the window {_shown(window)} holds nothing: give its lower left corner first, x0 < x1 and y0 < y1, "
+            f"the window {typed_value(window)} holds nothing: give its lower left corner first, x0 < x1 and y0 < y1, "
             f"at least {SMALLEST_FIT:g} mm apart"
         )
 
@@ -207,21 +207,16 @@ def _perspective(camera: Any) -> None:
         raise OptionError(f"perspective needs an hlr.Perspective, not {camera!r}")
     for name, point in (("eye", camera.eye), ("target", camera.target)):
         if point is not None and not _is_vector(point, 3):
-            raise OptionError(f"{name} needs three finite numbers in millimetres, not {_shown(point)}")
+            raise OptionError(f"{name} needs three finite numbers in millimetres, not {typed_value(point)}")
         if point is not None and max(map(abs, point)) > FARTHEST:
             most = typed(FARTHEST, 13)
-            raise OptionError(f"{name} {_shown(point)} is too far away: give numbers of at most {most} millimetres")
+            raise OptionError(
+                f"{name} {typed_value(point)} is too far away: give numbers of at most {most} millimetres"
+            )
     if camera.fov is not None and (not is_real(camera.fov) or not NARROWEST <= camera.fov <= WIDEST):
         raise OptionError(
-            f"a field of view of {_shown(camera.fov)} degrees cannot be drawn: give {NARROWEST} to {WIDEST:g}"
+            f"a field of view of {typed_value(camera.fov)} degrees cannot be drawn: give {NARROWEST} to {WIDEST:g}"
         )
-
-
-def _shown(value: Any) -> str:
-    """A number, or a tuple or list of numbers, as the command line takes it; anything else as Python writes it."""
-    if isinstance(value, tuple | list) and value and all(map(is_real, value)):
-        return ",".join(map(_shown, value))
-    return typed(float(value), 12) if is_real(value) else repr(value)
 
 
 def _is_strings(value: Any) -> bool:

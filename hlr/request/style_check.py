@@ -7,7 +7,7 @@ from numbers import Integral
 from typing import Any
 
 from hlr.common.colors import hex_of, parse_color
-from hlr.common.numbers import is_finite
+from hlr.common.numbers import is_finite, typed_value
 from hlr.errors import OptionError
 from hlr.tables.entry import listed
 
@@ -101,7 +101,8 @@ def checked_size(value: Any) -> tuple[int, int] | None:
             for v in (wide, high)
         ):
             return (int(wide), int(high))
-    raise OptionError(f"size needs a width and height in pixels, each 1 to {MOST_PIXELS_A_SIDE}, not {value!r}")
+    shown = typed_value(value, "x")
+    raise OptionError(f"size needs a width and height in pixels, each 1 to {MOST_PIXELS_A_SIDE}, not {shown}")
 
 
 def check_one_of(name: str, value: Any, allowed: tuple[Any, ...]) -> None:

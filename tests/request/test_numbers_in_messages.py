@@ -53,7 +53,9 @@ def test_a_limit_is_never_rounded_up(value, text):
         ({"accuracy": 1e-9}, "accuracy 0.000000001 mm is too fine for a drawing of 2.16 mm: give at least 0.0"),
         ({"scale": 2e9}, "scale 2000000000 cannot be drawn: .* 0.5 or 1:2, from 1:1000000000 to 1000000000:1"),
         ({"scale": -1}, r"scale -1 cannot be drawn: give a positive number or a ratio, 0.5 or 1:2\.$"),
-        ({"scale": None, "fit": (1e9, 3)}, "fit needs .*, not 1000000000,3"),
+        ({"scale": None, "fit": (1e9, 3)}, "fit needs .*, not 1000000000x3"),
+        ({"accuracy": 1e-300}, "accuracy 1e-300 mm is too fine for a drawing of 2.16 mm"),
+        ({"scale": 1e-300}, "scale 1e-300 cannot be drawn"),
         ({"window": (1e9, 0, 2e9, 1)}, "four numbers of at most 10000000, not 1000000000,0,2000000000,1"),
         ({"window": (0, -0.0, 1, 1e-9)}, "the window 0,0,1,0.000000001 holds nothing"),
         ({"perspective": hlr.Perspective(eye=(1e13, 0, -0.0))}, "eye 10000000000000,0,0 is .* 1000000000000 "),
@@ -63,6 +65,12 @@ def test_a_limit_is_never_rounded_up(value, text):
 def test_refusals(options, message):
     with pytest.raises(hlr.OptionError, match=message):
         hlr.draw(box((1, 1, 1)), **{"scale": 1, "view": "iso"} | options)
+
+
+@pytest.mark.parametrize(("size", "text"), [((20_000, 20_000), "20000x20000"), ([5], "5"), ("5x5", "'5x5'")])
+def test_a_size_is_refused_as_it_is_typed(size, text):
+    with pytest.raises(hlr.OptionError, match=f", not {text}."):
+        hlr.Style(size=size)
 
 
 @pytest.mark.parametrize("diagonal", [266.72, 0.9999, 12_345_678.9])
