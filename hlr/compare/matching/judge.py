@@ -32,8 +32,8 @@ class Stage:
 
 
 _MOVED = 10.1
-"""Tolerances by which a line may be displaced that is still the same: ten, and what files round. Designers move edges by
-a whole millimetre, which the usual ten tolerances are at full size; then the ending of a file must not decide."""
+"""Tolerances by which a line may be displaced that is still the same: ten, and what files round. Designers move edges
+by a whole millimetre, which the usual ten tolerances are at full size; then the ending of a file must not decide."""
 
 STAGES = (
     Stage(None, ("kind", "visible")),
