@@ -117,3 +117,18 @@ def test_names_stay_unique():
 def test_a_page_of_an_open_mesh():
     page = hlr.draw_arranged(tray(), options=hlr.Options(section={"front": True}))
     assert page.sheet.marks[0].letter == "A" and page.sheet.marks[0].line is not None
+
+
+def test_border_edges_are_counted_after_the_cut_and_the_notes_say_so():
+    options = hlr.Options(section={"front": True}, scale=1)
+    drawing = hlr.draw_arranged(tray(), views=["front", "top"], options=options)
+    whole, left = sorted((note.text for note in drawing.notes if note.code == "defects"), key=len)
+    assert whole.startswith('Part "part" is drawn as it is: open: ')
+    assert left.startswith('section front, after the cut: Part "part" is drawn as it is: open: ')
+    assert int(left.split()[-3]) > int(whole.split()[-3])
+
+
+def test_where_nothing_is_cut_the_notes_are_those_of_the_model():
+    whole = [note.text for note in hlr.draw(tray(), view="front", scale=1).notes if note.code == "defects"]
+    drawing = section(tray(), where=-DEPTH / 2)
+    assert whole and [note.text for note in drawing.notes if note.code == "defects"] == whole

@@ -32,6 +32,9 @@ from hlr.source.selection import matching, open_selected
 AT_PLANE = 100.0
 """Times what lies so close to a plane lies on it: how far off it a part may end that was cut there."""
 
+OF_BORDERS = {"defects", "more-defects", "open-surfaces"}
+"""Codes of notes that say something else of what is left than of the model."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Cut:
@@ -151,11 +154,18 @@ def _finished(drawing: Drawing, session: Session, cut: _Cut, whole: Source, view
     """The drawing with its hatches, and what is to be said about them."""
     started, clock = perf_counter(), dict(drawing.timings)
     drawing = with_hatches(drawing, session, cut.planes, cut.source, whole)
-    notes = *drawing.notes, *_failed(view, cut), *_notes(drawing, session, cut, directed(view)[0])
+    name = directed(view)[0]
+    told = (_after_cut(note, name) for note in drawing.notes) if cut.source.cut else drawing.notes
+    notes = *told, *_failed(view, cut), *_notes(drawing, session, cut, name)
     drawing = replace(drawing, notes=notes)
     lap(clock, "linework", started)
     clock["total"] = sum(seconds for stage, seconds in clock.items() if stage != "total")
     return replace(drawing, timings=clock)
+
+
+def _after_cut(note: Note, name: str) -> Note:
+    """A note that counts border edges: those at the plane are among them, and the model itself has fewer."""
+    return replace(note, text=f"section {name}, after the cut: {note.text}") if note.code in OF_BORDERS else note
 
 
 def _failed(view: View, cut: _Cut) -> list[Note]:
