@@ -183,9 +183,20 @@ def _name(label: Any) -> str:
         return ""
     name = TDataStd_Name()
     label.FindAttribute(TDataStd_Name.GetID_s(), name)
-    text = " ".join(str(name.Get().ToExtString()).split())
+    text = " ".join(_once_encoded(str(name.Get().ToExtString())).split())
     # OpenCASCADE's own writers give such names to nameless shapes.
     return "" if text.startswith(("Open CASCADE", "=>[")) or text in _GENERIC_NAMES else text
+
+
+def _once_encoded(text: str) -> str:
+    """A name without the second encoding that CadQuery and build123d give it in their STEP files: UTF-8 of UTF-8.
+
+    Where its characters are no bytes of UTF-8 it is a name as it stands: single letters with accents never are.
+    """
+    try:
+        return text.encode("latin-1").decode("utf-8")
+    except UnicodeError:
+        return text
 
 
 _GENERIC_NAMES = {"SOLID", "COMPOUND", "COMPSOLID", "SHELL", "FACE", "SHAPE", "ASSEMBLY", "NAUO"}
