@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from hlr.errors import StrictError
@@ -15,6 +16,9 @@ from .streams import clear_line, say
 if TYPE_CHECKING:
     from hlr.drawing.drawing import Drawing
     from hlr.drawing.notes import Note
+
+
+_OF_MODEL = {"defects", "more-defects", "open-surfaces"}
 
 
 def tell_notes(notes: Iterable[Note], strict: bool = False, quiet: bool = False) -> None:
@@ -29,6 +33,27 @@ def tell_notes(notes: Iterable[Note], strict: bool = False, quiet: bool = False)
             warn(str(note))
         elif not quiet:
             remark(str(note))
+
+
+def of_views(drawings: Sequence[Drawing], told: Sequence[Note] = ()) -> list[Note]:
+    """The notes of several views, without those that are told already.
+
+    A note that not all views have begins with the names of those that have it, unless it names a section itself or is
+    of the model, which is another in a section.
+    """
+    from hlr.tables.entry import listed
+
+    notes: dict[Note, list[str]] = {}
+    for drawing in drawings:
+        for note in dict.fromkeys(drawing.notes):
+            notes.setdefault(note, []).append(drawing.view.name)
+    out = []
+    for note, views in notes.items():
+        of_model = note.code in _OF_MODEL or note.text.startswith("section ")
+        of_some = len(views) < len(drawings) and not of_model
+        which = f"view{'s' if len(views) > 1 else ''} {listed(views, 'and')}: " if of_some else ""
+        out += [] if note in told else [replace(note, text=which + note.text)]
+    return out
 
 
 def tell_early(notes: Iterable[Note], strict: bool = False, quiet: bool = False) -> None:

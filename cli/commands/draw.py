@@ -21,7 +21,7 @@ from ..parameters import Duration, Vector3
 from ..section_options import SECTION, with_sections
 from ..streams import Output, result_only
 from ..style_options import STYLE, style_from
-from ..telling import summary, tell_early, tell_notes, tell_plan, tell_report, tell_written, written
+from ..telling import of_views, summary, tell_early, tell_notes, tell_plan, tell_report, tell_written, written
 from ..verb import Verb
 from ..view_options import (
     CAMERA,
@@ -177,8 +177,7 @@ def draw(
                 drawings = hlr.draw_views(source, list(views), request, progress=progress, noted=noted)
             else:
                 drawings = _within(source, list(views), request, progress, noted, targets, out, started)
-        late = (note for drawing in drawings for note in drawing.notes if note not in early)
-        tell_notes(late, request.strict, quiet)
+        tell_notes(of_views(drawings, early), request.strict, quiet)
         if request.within is None or (request.report and not to_stdout(targets)):
             drawings = write(drawings, targets, out.put)
         if request.report:

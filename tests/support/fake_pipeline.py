@@ -75,7 +75,10 @@ def draw_views(source, views, options, progress=None, noted=None):
     notes = tuple(Note("defects", text) for text in texts)
     made = sample() if stem != "large" else drawing([line([[0, 0], [1, 1]], edge=i) for i in range(20_000)])
     made = replace(made, source=Path(source).name, notes=notes)
-    return [replace(made, view=replace(ISO, name=v if isinstance(v, str) else "free")) for v in views]
+    drawings = [replace(made, view=replace(ISO, name=v if isinstance(v, str) else "free")) for v in views]
+    if stem == "crowded":
+        drawings[0] = replace(drawings[0], notes=(Note("crowded", "its lines are close together."),))
+    return drawings
 
 
 def info(source, *, crease=30.0, var=None, parameters=None, annotations=False, hidden_objects=False, progress=None):
