@@ -71,14 +71,18 @@ def draw_views(source, views, options, progress=None, noted=None):
             if progress is not None:
                 progress("visibility", i / 30)
             time.sleep(0.1)
-    texts = ("part 3 could not be read", "part 4 is open") if stem == "notes" else ()
-    notes = tuple(Note("defects", text) for text in texts)
     made = sample() if stem != "large" else drawing([line([[0, 0], [1, 1]], edge=i) for i in range(20_000)])
-    made = replace(made, source=Path(source).name, notes=notes)
-    drawings = [replace(made, view=replace(ISO, name=v if isinstance(v, str) else "free")) for v in views]
+    made = replace(made, source=Path(source).name)
+    names = [view if isinstance(view, str) else "free" for view in views]
+    return [replace(made, view=replace(ISO, name=name), notes=_notes(stem, k)) for k, name in enumerate(names)]
+
+
+def _notes(stem, number):
+    """Of one of the views."""
     if stem == "crowded":
-        drawings[0] = replace(drawings[0], notes=(Note("crowded", "its lines are close together."),))
-    return drawings
+        return (Note("crowded", "its lines are close together."),) if number == 0 else ()
+    texts = ("part 3 could not be read", "part 4 is open") if stem == "notes" else ()
+    return tuple(Note("defects", text) for text in texts)
 
 
 def info(source, *, crease=30.0, var=None, parameters=None, annotations=False, hidden_objects=False, progress=None):
