@@ -56,3 +56,12 @@ def test_a_wall_that_ends_elsewhere_says_nothing():
 def test_faces_that_meet_at_an_angle_turn_there():
     assert turned([(0, 0), (5, 1), (0, 2)]) == {1}
     assert turned([(0, 0), (5, 1), (9, 3)]) == set()
+
+
+def test_long_segments_have_no_more_points_than_can_be_searched():
+    """Walls of 34 m at full size had one every 0.05 mm: a comparison of two boxes took minutes."""
+    from hlr.compare.verdict.turning import cell_mm
+
+    walls = np.array([[[0.0, 0.0], [34_000.0, 0.0]]] * 10)
+    assert cell_mm([walls, walls], 0.01) == pytest.approx(680_000.0 / 200_000.0)
+    assert cell_mm([walls / 1000.0], 0.01) == pytest.approx(0.05)

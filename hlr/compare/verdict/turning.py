@@ -8,6 +8,7 @@ away from him on the other. Where both turn the same way, as at a step of a smoo
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +23,16 @@ Numbers = npt.NDArray[np.int64]
 
 _CELL = 5.0
 """Errors of the mesh: both sides of a face that is seen from its edge lie at one place within two cells."""
+
+
+_MOST_POINTS = 200_000.0
+"""Of all segments: where they are so long that there would be more, as of a hall at full size, cells are larger."""
+
+
+def cell_mm(segments: Sequence[Floats], error_mm: float) -> float:
+    """How wide cells are for segments, each (k, 2, 2)."""
+    length = sum(float(np.hypot(*(each[:, 1] - each[:, 0]).T).sum()) for each in segments)
+    return max(_CELL * error_mm, length / _MOST_POINTS)
 
 
 def turning_edges(scene: Scene, image: Floats, error_mm: float) -> Bools:
@@ -39,7 +50,9 @@ def turning_edges(scene: Scene, image: Floats, error_mm: float) -> Bools:
     beside = (one == 0) != (other == 0)
     borders, side = two[beside], (one + other)[beside]
     toward, away = borders[side > 0], borders[side < 0]
-    cells = [_Cells(image[scene.edges[each]][:, :, :2], _CELL * error_mm) for each in (toward, away)]
+    segments = [image[scene.edges[each]][:, :, :2] for each in (toward, away)]
+    size = cell_mm(segments, error_mm)
+    cells = [_Cells(each, size) for each in segments]
     turns[toward], turns[away] = cells[0].mostly_in(cells[1]), cells[1].mostly_in(cells[0])
     return turns
 
