@@ -184,6 +184,8 @@ def _camera(drawing: Drawing) -> dict[str, str]:
         fields["section"] = _vector(drawing.section.point)
         if drawing.section.corners:
             fields["section-corners"] = _vector(tuple(c for corner in drawing.section.corners for c in corner))
+    if drawing.window is not None:
+        fields["window"] = _vector(drawing.window)
     return fields | {"scale": ratio(drawing.scale), "origin": _vector(drawing.origin), "unit": f"{drawing.unit:.9g}"}
 
 

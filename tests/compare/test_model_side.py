@@ -41,6 +41,7 @@ STATED = {
     "in perspective": {"view": "iso", "perspective": hlr.Perspective()},
     "toward the origin": {"perspective": hlr.Perspective(eye=(60, 90, 50), target=(0, 0, 0))},
     "from an eye": {"perspective": hlr.Perspective(eye=(60, 90, 50), target=(3, 2, 1))},
+    "cut at a window": {"view": "iso", "window": (12, 10, 40, 30)},
 }
 
 

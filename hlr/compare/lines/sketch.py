@@ -43,6 +43,7 @@ class StatedView:
     eye, target  in perspective
     section     a point on the plane by which the model was cut; None: it was not
     corners     where that plane steps: of each step a point on the edge of the plane before it, and of that behind it
+    window      the rectangle on paper at which the lines were cut: lower left and upper right corner, mm; None: none
     """
 
     name: str
@@ -52,6 +53,7 @@ class StatedView:
     target: Vector | None = None
     section: Vector | None = None
     corners: tuple[Vector, ...] = ()
+    window: tuple[float, float, float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)

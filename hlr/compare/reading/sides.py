@@ -136,7 +136,7 @@ def _read_drawing(drawing: Drawing, sketch: Sketch) -> About:
     if drawing.sheet is not None:
         scales = {view.scale for view in drawing.sheet.views}
         return About(parts, scales.pop() if len(scales) == 1 else None, views)
-    return About(parts, drawing.scale, views, stated=stated_by(drawing.view, drawing.section))
+    return About(parts, drawing.scale, views, stated=stated_by(drawing.view, drawing.section, drawing.window))
 
 
 def _read_dxf(path: Path, sketch: Sketch) -> About:

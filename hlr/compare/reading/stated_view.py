@@ -8,15 +8,16 @@ from dataclasses import replace
 
 from hlr.compare.lines.sketch import StatedView
 from hlr.drawing.drawing import DrawnView
+from hlr.drawing.line import Bounds
 from hlr.drawing.section import Section
 from hlr.request.options import Options, Perspective, SectionPlace, Steps, Vector, View
 from hlr.source.model import Frame
 
 
-def stated_by(view: DrawnView, section: Section | None = None) -> StatedView:
+def stated_by(view: DrawnView, section: Section | None = None, window: Bounds | None = None) -> StatedView:
     """Of a drawing in memory."""
     cut, corners = (None, ()) if section is None else (section.point, section.corners)
-    return StatedView(view.name, view.direction, view.up, view.eye, view.target, cut, corners)
+    return StatedView(view.name, view.direction, view.up, view.eye, view.target, cut, corners, window)
 
 
 def stated_in(name: str | None, fields: Mapping[str, str]) -> StatedView | None:
@@ -29,19 +30,26 @@ def stated_in(name: str | None, fields: Mapping[str, str]) -> StatedView | None:
     corners = tuple(_vector(" ".join(numbers[k : k + 3])) for k in range(0, len(numbers), 3))
     if not any(direction) or not any(up):
         raise ValueError("a direction is zero")
-    return StatedView(name, direction, up, eye, target, section, corners)
+    window = Bounds(*_numbers(fields["window"])) if "window" in fields else None
+    return StatedView(name, direction, up, eye, target, section, corners, window)
 
 
 def _vector(text: str) -> Vector:
-    x, y, z = map(float, text.split())
-    if not all(map(math.isfinite, (x, y, z))):
-        raise ValueError(f"{text} is no vector")
+    x, y, z = _numbers(text)
     return (x, y, z)
+
+
+def _numbers(text: str) -> list[float]:
+    numbers = [float(word) for word in text.split()]
+    if not all(map(math.isfinite, numbers)):
+        raise ValueError(f"{text} is not finite")
+    return numbers
 
 
 def as_stated(stated: StatedView, frame: Frame, options: Options) -> tuple[View, Options]:
     """The view of a model in this frame, and the options with what the view does not say."""
     up, direction = _to_world(stated.up, frame), _to_world(stated.direction, frame)
+    options = replace(options, window=stated.window)
     if stated.eye is not None:
         target = None if stated.target is None else _millimetres(stated.target, frame)
         camera = Perspective(eye=_millimetres(stated.eye, frame), target=target)
