@@ -1,167 +1,124 @@
-//! Bounding boxes, volumes, areas and convexity of groups of triangles.
+//! Properties of groups: triangles that are treated as one surface.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+type Vec3 = [f64; 3];
 
-use rayon::prelude::*;
-
-#[derive(Debug, Default)]
+/// Columns with one entry per group.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Groups {
-    /// Bounding boxes; infinite, with low above high, for groups without triangles.
-    pub low: Vec<[f64; 3]>,
-    pub high: Vec<[f64; 3]>,
-    pub count: Vec<u32>,
-    /// Six times the signed volume about the box's lower corner: small numbers, so that a far-away part keeps its sign.
-    pub volume: Vec<f64>,
-    /// Twice the area.
-    pub area: Vec<f64>,
+    /// Every edge is used as often in one direction as in the other.
+    pub closed: Vec<bool>,
+    /// Closed, and turned outward: faces turned away need not be looked at.
+    pub cull: Vec<bool>,
+    /// Closed, and turned inward, as a cavity is.
+    pub inward: Vec<bool>,
+    /// Does not pass through itself, as far as its source tells.
+    pub sound: Vec<bool>,
+    /// A piece of a mesh without B-rep.
+    pub bare: Vec<bool>,
+    /// Lines that lie exactly on other groups' triangles.
+    pub tight: Vec<bool>,
+    /// Only planar faces.
+    pub planar: Vec<bool>,
+    /// Its thickness; the smallest side of its box where that is less or it is open. Model units.
+    pub extent: Vec<f64>,
+    /// Its box; the lower corner is beyond the upper one where it is empty.
+    pub low: Vec<Vec3>,
+    pub high: Vec<Vec3>,
 }
 
-/// Number of triangles that are measured in parallel before they are added up.
-const CHUNK: usize = 1 << 16;
-
-/// `group`: per triangle, below `count`. Sums run in the order of the triangles, whatever the number of threads.
-pub fn groups(points: &[[f64; 3]], triangles: &[[i32; 3]], group: &[i32], count: usize) -> Groups {
-    let (low, high) = boxes(points, triangles, group, count);
-    let mut out = Groups { count: vec![0; count], volume: vec![0.0; count], area: vec![0.0; count], low, high };
-    for (triangles, group) in triangles.chunks(CHUNK).zip(group.chunks(CHUNK)) {
-        let measured: Vec<[f64; 2]> = triangles
-            .par_iter()
-            .zip(group)
-            .with_min_len(1 << 10)
-            .map(|(t, &g)| measured(t.map(|v| &points[v as usize]), &out.low[g as usize]))
-            .collect();
-        for (&g, [volume, area]) in group.iter().zip(measured) {
-            let g = g as usize;
-            out.count[g] += 1;
-            out.volume[g] += volume;
-            out.area[g] += area;
-        }
+impl Groups {
+    pub fn len(&self) -> usize {
+        self.closed.len()
     }
-    out
-}
 
-fn measured(corners: [&[f64; 3]; 3], origin: &[f64; 3]) -> [f64; 2] {
-    let [p, q, r] = corners.map(|c| [0, 1, 2].map(|k| c[k] - origin[k]));
-    let six =
-        p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
-    let (u, v) = ([0, 1, 2].map(|k| q[k] - p[k]), [0, 1, 2].map(|k| r[k] - p[k]));
-    let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    [six, (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt()]
-}
+    pub fn is_empty(&self) -> bool {
+        self.closed.is_empty()
+    }
 
-type Corners = Vec<[f64; 3]>;
+    /// Whether a group holds anything.
+    pub fn used(&self, group: usize) -> bool {
+        self.low[group][0].is_finite()
+    }
 
-fn boxes(points: &[[f64; 3]], triangles: &[[i32; 3]], group: &[i32], count: usize) -> (Corners, Corners) {
-    let empty = || (vec![[f64::INFINITY; 3]; count], vec![[f64::NEG_INFINITY; 3]; count]);
-    let part = |triangles: &[[i32; 3]], group: &[i32]| {
-        let (mut low, mut high) = empty();
-        for (t, &g) in triangles.iter().zip(group) {
-            let (low, high) = (&mut low[g as usize], &mut high[g as usize]);
-            for p in t.map(|v| &points[v as usize]) {
-                for k in 0..3 {
-                    low[k] = low[k].min(p[k]);
-                    high[k] = high[k].max(p[k]);
-                }
+    /// These groups, and an open one for each distinct owner of edges without triangles. Returns the groups, and that of
+    /// each edge. tight: the edges lie exactly on triangles of other groups.
+    pub fn with_wires(&self, points: &[Vec3], wires: &[[i32; 2]], owner: &[i64], tight: bool) -> (Groups, Vec<i32>) {
+        let mut owners = owner.to_vec();
+        owners.sort_unstable();
+        owners.dedup();
+        let (before, more) = (self.len(), owners.len());
+        let mut out = self.clone();
+        for column in [&mut out.closed, &mut out.cull, &mut out.inward, &mut out.bare] {
+            column.resize(before + more, false);
+        }
+        for column in [&mut out.sound, &mut out.planar] {
+            column.resize(before + more, true);
+        }
+        out.tight.resize(before + more, tight);
+        out.extent.resize(before + more, 0.0);
+        out.low.resize(before + more, [f64::INFINITY; 3]);
+        out.high.resize(before + more, [f64::NEG_INFINITY; 3]);
+        let mut group = Vec::with_capacity(wires.len());
+        for (wire, own) in wires.iter().zip(owner) {
+            let g = before + owners.partition_point(|other| other < own);
+            group.push(g as i32);
+            for p in wire.map(|v| &points[v as usize]) {
+                out.low[g] = [0, 1, 2].map(|k| out.low[g][k].min(p[k]));
+                out.high[g] = [0, 1, 2].map(|k| out.high[g][k].max(p[k]));
             }
         }
-        (low, high)
-    };
-    // A table of boxes for each thread, where there are few groups.
-    let threads = rayon::current_num_threads();
-    if threads == 1 || count.saturating_mul(4 * threads) > triangles.len() {
-        return part(triangles, group);
+        (out, group)
     }
-    let chunk = triangles.len().div_ceil(threads).max(1);
-    let parts: Vec<(Corners, Corners)> =
-        triangles.par_chunks(chunk).zip(group.par_chunks(chunk)).map(|(t, g)| part(t, g)).collect();
-    parts.into_iter().fold(empty(), |(mut low, mut high), (l, h)| {
-        low.as_flattened_mut().iter_mut().zip(l.as_flattened()).for_each(|(a, b)| *a = a.min(*b));
-        high.as_flattened_mut().iter_mut().zip(h.as_flattened()).for_each(|(a, b)| *a = a.max(*b));
-        (low, high)
-    })
-}
 
-/// Edges with their triangles, and normals of these.
-#[derive(Clone, Copy)]
-pub struct Edges<'a> {
-    pub edges: &'a [[i32; 2]],
-    pub offsets: &'a [i32],
-    pub incident: &'a [i32],
-    pub normals: &'a [[f64; 3]],
-}
-
-/// Per group: an edge bends inward by more than the group's `least`, or has other than two triangles.
-pub fn bent(points: &[[f64; 3]], triangles: &[[i32; 3]], mesh: Edges, group: &[i32], least: &[f64]) -> Vec<bool> {
-    let bent: Vec<AtomicBool> = least.iter().map(|_| AtomicBool::new(false)).collect();
-    mesh.edges.par_iter().enumerate().with_min_len(1 << 10).for_each(|(e, &[a, b])| {
-        let around = &mesh.incident[mesh.offsets[e] as usize..mesh.offsets[e + 1] as usize];
-        let Some(&s) = around.first() else { return };
-        let own = group[s as usize] as usize;
-        if bent[own].load(Ordering::Relaxed) {
-            return;
+    /// These groups after triangles of some were taken away: they are open, and their faces are not culled.
+    pub fn opened(&self, which: &[bool]) -> Groups {
+        let mut out = self.clone();
+        for g in (0..which.len()).filter(|&g| which[g]) {
+            (out.closed[g], out.cull[g]) = (false, false);
         }
-        let hollow = |t: i32| {
-            let apex = triangles[t as usize].iter().map(|&v| i64::from(v)).sum::<i64>() - i64::from(a) - i64::from(b);
-            // An edge that is none of the triangle's sides has no such point.
-            let Some(apex) = usize::try_from(apex).ok().and_then(|v| points.get(v)) else { return true };
-            let (foot, n) = (&points[a as usize], &mesh.normals[s as usize]);
-            (0..3).map(|k| n[k] * (apex[k] - foot[k])).sum::<f64>() > least[own]
-        };
-        if around.len() != 2 || hollow(around[1]) {
-            bent[own].store(true, Ordering::Relaxed);
-        }
-    });
-    bent.into_iter().map(AtomicBool::into_inner).collect()
-}
-
-/// Number of connected pieces of each group; `piece`: per triangle, numbered in order of appearance.
-pub fn pieces(group: &[i32], piece: &[i32], count: usize) -> Vec<u32> {
-    let mut out = vec![0; count];
-    let mut next = 0;
-    for (&g, &p) in group.iter().zip(piece) {
-        if p == next {
-            out[g as usize] += 1;
-            next += 1;
-        }
+        out
     }
-    out
+
+    /// These groups where some pass through themselves: they are neither sound nor culled.
+    pub fn unsound(&self, which: &[bool]) -> Groups {
+        let mut out = self.clone();
+        for g in (0..which.len()).filter(|&g| which[g]) {
+            (out.sound[g], out.cull[g]) = (false, false);
+        }
+        out
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::topology::{normals, topology};
+    use crate::scene::tests::{built, tetrahedra};
 
     #[test]
-    fn a_tetrahedron_and_an_empty_group() {
-        let points = [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 1.0]];
-        let triangles = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
-        for threads in [1, 3] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let found = pool.install(|| groups(&points, &triangles, &[1; 4], 2));
-            assert_eq!((found.low[1], found.high[1]), ([1.0, 0.0, 0.0], [2.0, 1.0, 1.0]));
-            assert_eq!((found.count, found.volume), (vec![0, 4], vec![0.0, 1.0]));
-            assert_eq!(found.area[1], 3.0 + 3f64.sqrt());
-            assert!(found.low[0][0] > found.high[0][0]);
-        }
+    fn wires_of_one_owner_are_one_group() {
+        let points = [[0.0; 3], [1.0, 2.0, 3.0], [-1.0, 0.0, 9.0]];
+        let one = built(&tetrahedra(&[(0.0, 1.0)], &[true])).bodies.groups;
+        let (found, group) = one.with_wires(&points, &[[0, 1], [0, 2], [1, 2]], &[7, 3, 7], true);
+        assert_eq!(group, [2, 1, 2]);
+        assert_eq!((found.low[1], found.high[1]), ([-1.0, 0.0, 0.0], [0.0, 0.0, 9.0]));
+        assert_eq!((found.low[2], found.high[2]), ([-1.0, 0.0, 0.0], [1.0, 2.0, 9.0]));
+        assert_eq!(found.tight, [false, true, true]);
+        assert_eq!(found.closed, [true, false, false]);
+        assert_eq!(
+            (found.sound, found.bare, found.extent[1]),
+            (vec![false, true, true], vec![true, false, false], 0.0)
+        );
     }
 
     #[test]
-    fn what_is_open_or_hollow_is_bent() {
-        let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let triangles = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
-        let told = |triangles: &[[i32; 3]]| {
-            let t = topology(triangles, 4);
-            let normals = normals(&points, triangles);
-            let mesh = Edges { edges: &t.edges, offsets: &t.offsets, incident: &t.incident, normals: &normals };
-            bent(&points, triangles, mesh, &vec![0; triangles.len()], &[1e-9])[0]
-        };
-        assert!(!told(&triangles) && told(&triangles[1..]));
-        assert!(told(&triangles.map(|[a, b, c]| [a, c, b])));
-    }
-
-    #[test]
-    fn pieces_of_groups() {
-        assert_eq!(pieces(&[0, 0, 1, 0], &[0, 1, 2, 0], 3), [2, 1, 0]);
+    fn opened_and_unsound_groups_are_not_culled() {
+        let all = || vec![true; 2];
+        let two = Groups { closed: all(), cull: all(), sound: all(), ..Groups::default() };
+        let opened = two.opened(&[false, true]);
+        assert_eq!((&opened.closed[..], &opened.cull[..]), (&[true, false][..], &[true, false][..]));
+        assert_eq!(opened.sound, [true, true]);
+        let unsound = two.unsound(&[true, false]);
+        assert_eq!((&unsound.sound[..], &unsound.cull[..]), (&[false, true][..], &[false, true][..]));
+        assert_eq!(unsound.closed, [true, true]);
     }
 }

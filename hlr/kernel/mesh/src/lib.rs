@@ -1,11 +1,12 @@
-//! Triangle meshes before any view: reading, cleaning, topology, groups, edge classes. Arrays hold millions of
-//! triangles.
+//! Triangle meshes before any view: reading, cleaning, topology, groups and their properties, edge classes. Arrays hold
+//! millions of triangles.
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod bodies;
 pub mod boxes;
 pub mod clean;
+pub mod convexity;
 pub mod edge_flips;
 pub mod facts;
 pub mod groups;
@@ -15,6 +16,7 @@ pub mod meshfile;
 pub mod needles;
 pub mod ray_count;
 pub mod scene;
+pub mod sizes;
 pub mod stitch;
 pub mod tables;
 pub mod topology;

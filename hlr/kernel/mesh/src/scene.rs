@@ -3,7 +3,8 @@
 use hlr_brep::format::Matrix;
 use rayon::prelude::*;
 
-use super::bodies::{Bodies, bodies, may_fold};
+use super::bodies::{Bodies, bodies};
+use super::convexity::may_fold;
 use super::facts::Facts;
 use super::kinds::{INTERIOR, SHARP};
 use super::tables::{Tables, per_item};
@@ -160,7 +161,7 @@ fn reports(tables: &Tables, facts: &Facts, part_of: &[i32], edge_part: &[i32], b
     }
     facts.flat.iter().for_each(|&t| out[part_of[t as usize] as usize][3] += 1);
     for (g, &part) in bodies.part_of.iter().enumerate() {
-        out[part as usize][4] += i64::from(!bodies.closed[g]);
+        out[part as usize][4] += i64::from(!bodies.groups.closed[g]);
         out[part as usize][5] += i64::from(bodies.turned[g]);
     }
     for (p, report) in out.iter_mut().enumerate() {
@@ -228,12 +229,12 @@ fn composed(outer: &Matrix, inner: &Matrix) -> Matrix {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use hlr_brep::format::IDENTITY;
 
     /// Tetrahedra without B-rep; `order` of the corners of their triangles.
-    fn tetrahedra(at: &[(f64, f64)], outward: &[bool]) -> Tables {
+    pub fn tetrahedra(at: &[(f64, f64)], outward: &[bool]) -> Tables {
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let sides = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
         let (n, mut tables) = (at.len() as i32, Tables::default());
@@ -255,18 +256,19 @@ mod tests {
         tables
     }
 
-    fn built(tables: &Tables) -> Scene {
+    pub fn built(tables: &Tables) -> Scene {
         scene(tables, &Facts::of(&tables.points, &tables.triangles))
     }
 
     #[test]
     fn what_is_inside_out_is_turned_and_a_cavity_is_not() {
         let found = built(&tetrahedra(&[(0.0, 1.0), (5.0, 1.0)], &[true, false]));
-        assert_eq!((found.bodies.cull, found.bodies.turned), (vec![true, true], vec![false, true]));
+        assert_eq!((&found.bodies.groups.cull, &found.bodies.turned), (&vec![true, true], &vec![false, true]));
         let turned = found.turned.unwrap();
         assert_eq!((turned.triangles[4], turned.which[3], turned.which[4]), ([4, 6, 5], false, true));
         let found = built(&tetrahedra(&[(0.0, 1.0), (0.1, 0.2)], &[true, false]));
-        assert_eq!((found.bodies.cull, found.bodies.inward), (vec![true, false], vec![false, true]));
+        let groups = &found.bodies.groups;
+        assert_eq!((&groups.cull, &groups.inward), (&vec![true, false], &vec![false, true]));
         assert!(found.turned.is_none());
     }
 
@@ -274,7 +276,7 @@ mod tests {
     fn a_convex_body_does_not_fold() {
         let found = built(&tetrahedra(&[(0.0, 1.0)], &[true]));
         assert_eq!((found.folded, found.reports[0]), (vec![false], [0, 0, 0, 0, 0, 0, 4, 0]));
-        assert_eq!(found.bodies.extent, [3.6 / 6.0 / (1.5 + 3f64.sqrt() / 2.0)]);
+        assert_eq!(found.bodies.groups.extent, [3.6 / 6.0 / (1.5 + 3f64.sqrt() / 2.0)]);
     }
 
     #[test]
@@ -283,7 +285,18 @@ mod tests {
         tables.triangles.pop();
         tables.triangle_start[1] = 7;
         let found = built(&tables);
-        assert_eq!((found.bodies.closed, found.folded), (vec![true, false], vec![false, true]));
+        assert_eq!((&found.bodies.groups.closed, found.folded), (&vec![true, false], vec![false, true]));
         assert_eq!(found.reports[0], [3, 0, 0, 0, 1, 0, 7, 0]);
+    }
+    #[test]
+    fn a_closed_piece_of_a_brep_is_sound() {
+        let mut tables = tetrahedra(&[(0.0, 1.0), (5.0, 1.0)], &[true, true]);
+        let groups = |tables: &Tables| built(tables).bodies.groups;
+        assert_eq!((&groups(&tables).sound, &groups(&tables).bare), (&vec![false; 2], &vec![true; 2]));
+        tables.brep = vec![true];
+        assert_eq!((&groups(&tables).sound, &groups(&tables).bare), (&vec![true], &vec![false]));
+        tables.triangles.pop();
+        tables.triangle_start[1] = 7;
+        assert_eq!((&groups(&tables).sound, &groups(&tables).bare), (&vec![true, false], &vec![false; 2]));
     }
 }

@@ -7,7 +7,8 @@ use pyo3::types::PyDict;
 
 use super::arrays::table;
 use super::arrays::{expect_below, expect_len, flat, rows};
-use super::plan::{Groups, depths};
+use super::groups::Groups;
+use super::plan::depths;
 use super::threads::run;
 use super::view::{Flat, Rows};
 use hlr_mesh::facts::Facts;
@@ -71,7 +72,7 @@ pub fn crossings<'py>(
     contact: [f64; 3],
     deflection: f64,
 ) -> PyResult<Crossings<'py>> {
-    let touch = groups.0.contact_depths(depths(contact));
+    let touch = depths(contact).of_groups(&groups.0);
     expect_len("groups", touch.len(), scene.folded.len())?;
     let found = told(run(py, tables.triangles.len(), |stopped| {
         let found = crossings::crossings((tables, facts, scene), &touch, deflection, stopped)?;

@@ -12,6 +12,7 @@ mod cut;
 mod drawing;
 mod fill;
 mod geometry;
+mod groups;
 mod guard;
 mod ink;
 mod intersections;
@@ -49,7 +50,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(topology::edge_components, m)?)?;
     m.add_function(wrap_pyfunction!(visibility::visibility, m)?)?;
     m.add_class::<mesh_input::Mesh>()?;
-    m.add_class::<plan::Groups>()?;
+    m.add_class::<groups::Groups>()?;
     m.add_class::<plan::Plan>()?;
     m.add_class::<visibility::OwnFaces>()?;
     m.add_class::<visibility::Visibility>()?;

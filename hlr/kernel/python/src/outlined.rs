@@ -6,8 +6,8 @@ use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat as slice};
 use super::camera::Camera;
+use super::groups::Groups;
 use super::mesh_input::Mesh;
-use super::plan::Groups;
 use super::silhouette::Outlines;
 use super::true_surfaces::TrueSurfaces;
 use super::view::{Flat, Rows, arrays, flat, rows};

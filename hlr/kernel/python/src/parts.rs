@@ -9,15 +9,14 @@ use rayon::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat as slice, rows as table};
 use super::clash::{Crossings, crossings};
+use super::groups::Groups;
 use super::guard::caught;
-use super::plan::Groups;
 use super::threads::{release_later, run};
 use super::view::{Flat, Rows, arrays, flat, matrices, rows};
 use hlr_brep::format::Matrix;
 use hlr_mesh::facts::Facts;
 use hlr_mesh::scene::{Scene, scene};
 use hlr_mesh::tables::{Placed, Tables, TooMany};
-use hlr_visibility::plan::groups::Groups as Columns;
 
 /// Triangles or points that count as one item of `run`: each takes a tenth of a microsecond. For fewer items starting
 /// other threads costs more than the work.
@@ -389,7 +388,7 @@ arrays! { MeshScene {
 
     /// Properties of its groups.
     fn groups(&self) -> Groups {
-        Groups(Arc::new(Columns::of(&self.scene.bodies, &self.tables.brep)))
+        Groups(self.scene.bodies.groups.clone())
     }
 
     /// Per part: its counts, as `Report` lists them.

@@ -76,16 +76,15 @@ pub fn crossings(
     let planar = PlanarFaces::new(plane, triangles, tables.points.len(), &edges);
     let met = met(&tables.points, (triangles, group, &planar), &scene.folded, stopped)?;
     let (found, ends, points) = (&met.clashes.found[..], &met.ends[..], &met.points[..]);
-    let without_brep: Vec<bool> = scene.bodies.part_of.iter().map(|&p| !tables.brep[p as usize]).collect();
+    let groups = &scene.bodies.groups;
     let sheet = Sheet::new(&tables.points, (triangles, &facts.normals), (edges, &scene.kind));
     let planes = planes(&sheet, &planar.of, found);
     let (face, planes) = (&planar.of[..], &planes);
-    let bodies = Bodies { sheet, group, face, planes, without_brep: &without_brep, touch, deflection };
+    let bodies = Bodies { sheet, group, face, planes, without_brep: &groups.bare, touch, deflection };
     let depth = |(clash, ends): (&Clash, &[i32; 2])| bodies.depth(clash, ends.map(|end| &points[end as usize]));
     let mut depth: Vec<Depth> = found.par_iter().zip(ends).with_min_len(FEW_CLASHES).map(depth).collect();
     chord_ends::limit(&bodies, found, ends, points, &mut depth);
-    let width: Vec<f64> =
-        scene.bodies.low.iter().zip(&scene.bodies.high).map(|(low, high)| widest(low, high)).collect();
+    let width: Vec<f64> = groups.low.iter().zip(&groups.high).map(|(low, high)| widest(low, high)).collect();
     let (real, through) = real(&bodies, found, ends, &depth, points, &width);
     let mut used: Vec<i32> = real.iter().flat_map(|segment| segment.ends).collect();
     used.sort_unstable();

@@ -1,7 +1,8 @@
 //! How deep surfaces touch in a view, and which groups come that near another one.
 
+use hlr_mesh::groups::Groups;
+
 use super::Vec3;
-use super::groups::{Depths, Groups};
 use crate::boxes::meeting::boxes_meet;
 
 /// What is asked of a camera.
@@ -12,6 +13,37 @@ pub trait Look {
     fn ahead(&self, p: &Vec3) -> f64;
     /// Coordinates to the right, up, and away from the viewer.
     fn image(&self, p: &Vec3) -> Vec3;
+}
+
+/// Depths in model units within which surfaces touch: of B-rep groups with curved faces, and of those with planar faces
+/// alone; share: of the scene's diagonal, for meshes without B-rep.
+#[derive(Clone, Copy, Debug)]
+pub struct Depths {
+    pub curved: f64,
+    pub planar: f64,
+    pub share: f64,
+}
+
+impl Depths {
+    /// Per group: a surface nearer than this touches it. Model units.
+    pub fn of_groups(self, groups: &Groups) -> Vec<f64> {
+        let least = if groups.bare.contains(&true) { self.share * diagonal(groups) } else { 0.0 };
+        let depth = |g: usize| {
+            let own = if groups.planar[g] { self.planar } else { self.curved };
+            if groups.bare[g] { own.max(least) } else { own }
+        };
+        (0..groups.len()).map(depth).collect()
+    }
+}
+
+/// Of the box around all groups.
+fn diagonal(groups: &Groups) -> f64 {
+    let used = || (0..groups.len()).filter(|&g| groups.used(g));
+    let side = |k: usize| {
+        let low = used().map(|g| groups.low[g][k]).fold(f64::INFINITY, f64::min);
+        used().map(|g| groups.high[g][k]).fold(f64::NEG_INFINITY, f64::max) - low
+    };
+    [0, 1, 2].map(side).iter().map(|s| s * s).sum::<f64>().sqrt()
 }
 
 /// Per group, in depth units of the view.
@@ -29,7 +61,7 @@ const NEAREST: f64 = 1e-3;
 impl Contact {
     /// rounding: depth within which lines touch the surfaces on which they lie, model units.
     pub fn of(groups: &Groups, look: &impl Look, depths: Depths, rounding: f64) -> Contact {
-        let mut delta = groups.contact_depths(depths);
+        let mut delta = depths.of_groups(groups);
         let tight = delta.iter_mut().zip(&groups.tight).filter(|(_, tight)| **tight);
         tight.for_each(|(delta, _)| *delta = rounding);
         // Half a part's thickness at most, or the far side of a thin sheet would show through. An open sheet may have
@@ -60,6 +92,15 @@ fn slope(groups: &Groups, g: usize, look: &impl Look, distance: f64) -> f64 {
 
 fn corners(of: [Vec3; 2]) -> [Vec3; 8] {
     std::array::from_fn(|i| [of[i >> 2 & 1][0], of[i >> 1 & 1][1], of[i & 1][2]])
+}
+
+/// Per group: its box, `reach` wider on all sides, meets that of another. None where they lie too far apart for a grid.
+pub fn meeting(groups: &Groups, reach: f64) -> Option<Vec<bool>> {
+    if (0..groups.len()).filter(|&g| groups.used(g)).nth(1).is_none() {
+        return Some(vec![false; groups.len()]);
+    }
+    let moved = |corners: &[Vec3], by: f64| corners.iter().map(|c| c.map(|c| c + by)).collect::<Vec<_>>();
+    boxes_meet(&moved(&groups.low, -reach), &moved(&groups.high, reach))
 }
 
 /// How many groups come within the contact tolerance of another: their boxes, grown by it, meet. None where they lie too
@@ -101,9 +142,24 @@ fn seen(points: &[Vec3; 8], deeper: f64) -> (Vec3, Vec3) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::groups::tests::boxes;
+pub(super) mod tests {
     use super::*;
+
+    /// Closed boxes of a B-rep from corner to corner, one unit thick.
+    pub fn boxes<const N: usize>(corners: [[Vec3; 2]; N]) -> Groups {
+        Groups {
+            closed: vec![true; N],
+            cull: vec![true; N],
+            inward: vec![false; N],
+            sound: vec![true; N],
+            bare: vec![false; N],
+            tight: vec![false; N],
+            planar: vec![true; N],
+            extent: vec![1.0; N],
+            low: corners.map(|c| c[0]).to_vec(),
+            high: corners.map(|c| c[1]).to_vec(),
+        }
+    }
 
     /// From above; with an eye at the origin's height where `distance` is given.
     struct Above(Option<f64>);
@@ -157,5 +213,24 @@ mod tests {
         // The eye is within a box.
         assert_eq!(near(&Above(Some(10.0)), 0.0, 7.0), Some(2));
         assert_eq!(coming_near(&boxes([[[0.0; 3], [1.0; 3]]]), &Above(None), &[9.0], 1.0, 9.0), Some(0));
+    }
+
+    #[test]
+    fn boxes_meet_within_their_reach() {
+        let row = boxes([[[0.0; 3], [1.0; 3]], [[2.0, 0.0, 0.0], [3.0, 1.0, 1.0]], [[9.0; 3], [10.0; 3]]]);
+        assert_eq!(meeting(&row, 0.0), Some(vec![false; 3]));
+        assert_eq!(meeting(&row, 0.6), Some(vec![true, true, false]));
+        let mut one = boxes([[[0.0; 3], [1.0; 3]]; 2]);
+        one.low[1] = [f64::INFINITY; 3];
+        assert_eq!(meeting(&one, 1.0), Some(vec![false; 2]));
+    }
+
+    #[test]
+    fn bare_meshes_touch_within_a_share_of_the_scene() {
+        let mut groups = boxes([[[0.0; 3], [1.0; 3]], [[0.0; 3], [30.0, 40.0, 1.0]], [[0.0; 3], [1.0; 3]]]);
+        groups.planar[2] = false;
+        assert_eq!(DEPTHS.of_groups(&groups), [2.0, 2.0, 5.0]);
+        groups.bare[1] = true;
+        assert_eq!(DEPTHS.of_groups(&groups), [2.0, 0.5 * 2501f64.sqrt(), 5.0]);
     }
 }

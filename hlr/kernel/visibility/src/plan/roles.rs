@@ -1,9 +1,9 @@
 //! Which edges are drawn, and what the pass is told of all groups.
 
+use hlr_mesh::groups::Groups;
 use rayon::prelude::*;
 
 use super::contact::Contact;
-use super::groups::Groups;
 use crate::scan::scene::Group;
 
 /// The role of an edge by its class: beside no curved face, then beside one.
@@ -59,7 +59,7 @@ pub fn counts(groups: &Groups, triangle_group: &[i32], role: &[u8]) -> Counts {
 
 #[cfg(test)]
 mod tests {
-    use super::super::groups::tests::boxes;
+    use super::super::contact::tests::boxes;
     use super::*;
 
     #[test]
