@@ -147,7 +147,7 @@ class Groups:
     def meeting(self) -> Bools:
         """(g,) whether the box of each group comes near that of another: False only where it certainly does not."""
 
-class Plan:
+class VisibilityInput:
     """What the visibility pass is told of edges and groups: decided for a view of a scene, or, by `of`, given.
 
     triangle (t,), edge (e,): the group of each, not copied; curved (e,), kind (e,): of the edges; hidden (e,): edges
@@ -170,7 +170,7 @@ class Plan:
         camera: Camera,
         contact: tuple[float, float, float],
         rounding: float,
-    ) -> Plan: ...
+    ) -> VisibilityInput: ...
     @staticmethod
     def of(
         triangle: Ints,
@@ -183,8 +183,8 @@ class Plan:
         cap: Floats,
         tight: Bools,
         drawn: list[bool],
-    ) -> Plan:
-        """A plan that is decided already: role (e,), and the properties of each group (g,)."""
+    ) -> VisibilityInput:
+        """An input that is decided already: role (e,), and the properties of each group (g,)."""
 
     role: Bytes
     """(e,) 1 drawn, 2 drawn where it is a contour, 3 both, 0 not drawn."""
@@ -201,13 +201,27 @@ class Plan:
         """How many groups come within the contact tolerance of another, or may.
 
         lift: how far lines may be off their surfaces, model units; spare: the factor of the tolerance that covers all
-        rounding. ValueError where the plan was given.
+        rounding. ValueError where the input was given.
         """
 
-    def counts(self) -> tuple[int, int, int, int, int]:
-        """How many groups have triangles, are culled, may pass through themselves, do so and are not culled; edges with
-        a role. ValueError where the plan was given.
-        """
+    def counts(self) -> VisibilityCounts:
+        """Of groups and edges. ValueError where the input was given."""
+
+class VisibilityCounts:
+    """Numbers of groups and edges that decide which steps the visibility pass takes.
+
+    faced               groups that have triangles
+    culled              groups whose faces are not looked at where they are turned away
+    unsound             groups that may pass through themselves
+    unsound_not_culled  those of them that are not culled
+    edges               edges that have a role
+    """
+
+    faced: int
+    culled: int
+    unsound: int
+    unsound_not_culled: int
+    edges: int
 
 class OwnFaces:
     """Edges whose own faces are seen nearly edge-on: the columns of `hlr.scene.scene.OwnFaces`.
@@ -251,7 +265,7 @@ class Visibility:
 def visibility(
     mesh: Mesh,
     projected: Floats,
-    plan: Plan,
+    input: VisibilityInput,
     own: OwnFaces | None = None,
     hidden: Bools | None = None,
     *,
@@ -264,7 +278,7 @@ def visibility(
     """Decides which pieces of the edges are visible; projected (n, 3): x right, y up, z away from the viewer.
 
     hidden (e,): its own body hides it, so it has one hidden piece, whatever its role. contact: surfaces touch within
-    the plan's tolerance. crossings, piercings, pyramid: the steps to run, as in `hlr.visibility.plan.Plan`.
+    the input's tolerance. crossings, piercings, pyramid: the steps to run, as in `hlr.visibility.plan.Plan`.
     arithmetic: exact, f64 or f32. ValueError where shapes do not fit or a coordinate is not finite, KeyboardInterrupt
     within milliseconds of Ctrl-C.
     """
@@ -505,14 +519,14 @@ class Walks:
 class Chains:
     """Walks over mesh edges that become lines: those of the source, then contours of the mesh.
 
-    Walks of the classes that the plan draws. triangle_part, triangle_face (t,); has_faces (parts,); found: what the
-    visibility pass found by this plan. ValueError where they do not fit.
+    Walks of the classes that are drawn. input: what the visibility pass was told, found: what it found; triangle_part,
+    triangle_face (t,); has_faces (parts,). ValueError where they do not fit.
     """
 
     def __new__(
         cls,
         walks: Walks,
-        plan: Plan,
+        input: VisibilityInput,
         mesh: Mesh,
         triangle_part: Ints,
         triangle_face: Ints,

@@ -97,7 +97,7 @@ def _chains(image: Image, plan: Plan, segments: Segments) -> _kernel.Chains:
     )
     return _kernel.Chains(
         walks,
-        plan.edges,
+        plan.visibility_input,
         segments.mesh,
         image.triangle_part,
         image.triangle_face,

@@ -23,17 +23,18 @@ OUTLINE = 2
 class Plan:
     """What the stages after it are told.
 
-    edges   for the kernel: the role of each edge (DRAWN, OUTLINE, both, or 0), and how near to each group counts as
-    touching it
-    step    radians: a crease of a mesh is drawn as a circle where its vertices are less than this apart; 0: never
-    fill    visible faces are painted
-    contact whether the contact tolerance applies
-    divide  points are divided by their distance from the eye
+    visibility_input  for the kernel: the role of each edge (DRAWN, OUTLINE, both, or 0), and how near to each group
+                      counts as touching it
+    step              radians: a crease of a mesh is drawn as a circle where its vertices are less than this apart; 0:
+                      never
+    fill              visible faces are painted
+    contact           whether the contact tolerance applies
+    divide            points are divided by their distance from the eye
     crossings, piercings, pyramid: which steps the visibility pass takes
-    every_curve  all curves are looked up, needed or not, to measure what that costs
+    every_curve       all curves are looked up, needed or not, to measure what that costs
     """
 
-    edges: _kernel.Plan
+    visibility_input: _kernel.VisibilityInput
     step: float
     fill: bool
     contact: bool
@@ -56,7 +57,7 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
     roles[1, goes_on()] = OUTLINE
     drawn_kind = [row.drawn(options) for row in by_number()]
     roles[:, : len(drawn_kind)] |= DRAWN * np.array(drawn_kind, np.uint8)
-    edges = _kernel.Plan(
+    visibility_input = _kernel.VisibilityInput(
         image.groups,
         image.triangle_group,
         image.edge_group,
@@ -69,19 +70,19 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
         (tolerances.contact, tolerances.contact_planar, MESH_CONTACT),
         tolerances.rounding,
     )
-    groups, culled, unsound, unsound_not_culled, drawn = edges.counts()
+    counts = visibility_input.counts()
     with planner.deciding():
-        near = edges.coming_near(MOST_LIFT * tolerances.deflection, CONTACT_SPARE)
+        near = visibility_input.coming_near(MOST_LIFT * tolerances.deflection, CONTACT_SPARE)
     facts = Facts(
-        groups=groups,
-        culled=culled,
+        groups=counts.faced,
+        culled=counts.culled,
         convex=image.convex,
         perspective=image.camera.eye is not None,
         meeting=near,
-        unsound=unsound,
-        edges=drawn,
+        unsound=counts.unsound,
+        edges=counts.edges,
     )
-    loose = Facts(meeting=near, unsound=unsound_not_culled)
+    loose = Facts(meeting=near, unsound=counts.unsound_not_culled)
     view = Facts(pictorial=image.camera.pictorial)
     for name in ("hidden lines", *(row.title for row in counted()), "circles of meshes", "colours"):
         planner.on(name, view)
@@ -92,7 +93,7 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
     sought += 0 if image.silhouettes is None else len(image.silhouettes.curves.kind)
     every = planner.on("exact curves", Facts(bent=sought))
     return Plan(
-        edges=edges,
+        visibility_input=visibility_input,
         contact=touch,
         # Where the surface folds by more than the crease angle, an edge is drawn, and the figure has corners.
         step=math.radians(min(options.crease, MOST_STEP)) if options.circles else 0.0,

@@ -36,7 +36,7 @@ def solve(image: Image, plan: Plan, lifted: Floats, arithmetic: str = "exact") -
     found = _kernel.visibility(
         mesh,
         np.ascontiguousarray(lifted),
-        plan.edges,
+        plan.visibility_input,
         _own_faces(image),
         None if image.silhouettes is None else image.silhouettes.hidden,
         contact=plan.contact,

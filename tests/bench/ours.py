@@ -42,7 +42,7 @@ class Kernel:
         role[place[np.append(keys, -1)[place] == mesh.drawn]] = 1
         edge_part = mesh.triangle_part.take(incident.take(offsets[:-1]))
         closed = np.full(mesh.parts, True)
-        plan = _kernel.Plan.of(
+        given = _kernel.VisibilityInput.of(
             mesh.triangle_part,
             edge_part,
             role,
@@ -56,7 +56,7 @@ class Kernel:
         whole = _kernel.Mesh(points, mesh.triangles, edges, offsets, incident)
         # As in a drawing.
         deep = mesh.parts >= DEEP_GROUPS and len(edges) >= DEEP_EDGES
-        found = _kernel.visibility(whole, points, plan, pyramid=deep)
+        found = _kernel.visibility(whole, points, given, pyramid=deep)
         seconds = time.perf_counter() - start
         self.counters = {name: int(value) for name, value in found.counters.items()}
         self.counters["pieces"] = len(found.edge)

@@ -21,7 +21,7 @@ def states_behind_a_valley(own: float, other: float) -> list[int]:
     points += [[0, 0, -640], [0, 0, 640]]  # the kernel caps the tolerance at a fraction of the depth of all points
     triangles = np.array([[0, 2, 1], [1, 2, 3], [2, 4, 3], [3, 4, 5]], np.int32)
     mesh, wire = mesh_with_wire(np.array(points, float), triangles, (6, 7))
-    plan = _kernel.Plan.of(
+    given = _kernel.VisibilityInput.of(
         np.ones(4, np.int32),
         np.array([1] * wire + [0], np.int32),
         np.ones(wire + 1, np.uint8),
@@ -32,7 +32,7 @@ def states_behind_a_valley(own: float, other: float) -> list[int]:
         tight=np.zeros(2, bool),
         drawn=[],
     )
-    found = _kernel.visibility(mesh, np.array(points, float), plan)
+    found = _kernel.visibility(mesh, np.array(points, float), given)
     return [min(int(state), WITHIN) for edge, state in zip(found.edge, found.state, strict=True) if edge == wire]
 
 
@@ -66,7 +66,7 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
     space = np.column_stack([flat, np.zeros(4)])
     mesh = _kernel.Mesh(space, np.zeros((0, 3), np.int32), edges, np.zeros(5, np.int32), nothing)
     one = np.zeros(1)
-    plan = _kernel.Plan.of(
+    given = _kernel.VisibilityInput.of(
         nothing,
         np.zeros(4, np.int32),
         np.zeros(4, np.uint8),
@@ -86,7 +86,7 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
     )
     chains = _kernel.Chains(
         walks,
-        plan,
+        given,
         mesh,
         nothing,
         nothing,

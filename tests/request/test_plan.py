@@ -145,30 +145,32 @@ def planned(thing, view="iso", **options):
 def test_which_edges_are_drawn(smooth, seam):
     model = cq.Workplane().cylinder(20, 5).faces(">Z").edges().fillet(1)
     scene, plan, _ = planned(model, smooth=smooth, seam=seam)
-    drawn = {k: bool((plan.edges.role[scene.edge_kind == k] & DRAWN).all()) for k in (0, 1, 2)}
+    drawn = {k: bool((plan.visibility_input.role[scene.edge_kind == k] & DRAWN).all()) for k in (0, 1, 2)}
     assert drawn == {EdgeClass.SHARP: True, EdgeClass.SMOOTH: smooth, EdgeClass.SEAM: seam}
-    assert not (plan.edges.role[scene.edge_kind == INTERIOR] & DRAWN).any()
+    assert not (plan.visibility_input.role[scene.edge_kind == INTERIOR] & DRAWN).any()
     # A sharp edge is drawn anyway; anything else on a curved face may turn out to be an outline.
-    assert not (plan.edges.role[scene.edge_kind == EdgeClass.SHARP] & OUTLINE).any()
+    assert not (plan.visibility_input.role[scene.edge_kind == EdgeClass.SHARP] & OUTLINE).any()
     may = scene.edge_curved & (scene.edge_kind != EdgeClass.SHARP)
-    assert ((plan.edges.role & OUTLINE != 0) == may).all()
+    assert ((plan.visibility_input.role & OUTLINE != 0) == may).all()
 
 
 def test_contact_tolerances():
     model = cq.Assembly().add(cq.Workplane().box(20, 20, 20)).add(cq.Workplane().cylinder(20, 5))
     _, plan, tolerances = planned(model)
-    assert plan.edges.delta.tolist() == [tolerances.contact_planar, tolerances.contact]
+    assert plan.visibility_input.delta.tolist() == [tolerances.contact_planar, tolerances.contact]
     # A thin part: no more than half its thickness.
     thin, plan, _ = planned(cq.Workplane().cylinder(0.01, 5))
-    assert plan.edges.cap == pytest.approx(0.5 * thin.groups.extent)
-    assert plan.edges.cap[0] < 0.0051
+    assert plan.visibility_input.cap == pytest.approx(0.5 * thin.groups.extent)
+    assert plan.visibility_input.cap[0] < 0.0051
     # Meshes bring the tolerance of whoever made them: a share of the whole model's size.
     _, plan, _ = planned(parts(box((3000, 4000, 1)), box((1, 1, 1))))
     # At most half the plate's thickness; of the cube, by its volume and area, 0.3 of a side.
-    assert np.minimum(plan.edges.delta, plan.edges.cap) == pytest.approx([0.5, 0.3])
+    assert np.minimum(plan.visibility_input.delta, plan.visibility_input.cap) == pytest.approx([0.5, 0.3])
     _, plan, _ = planned(parts(box((3000, 4000, 100)), box((100, 100, 100))))
-    assert plan.edges.delta == pytest.approx([np.sqrt(3000**2 + 4000**2 + 100**2) / 8000] * 2)
-    assert plan.edges.counts() == (2, 2, 2, 0, 36)
+    assert plan.visibility_input.delta == pytest.approx([np.sqrt(3000**2 + 4000**2 + 100**2) / 8000] * 2)
+    counts = plan.visibility_input.counts()
+    assert (counts.faced, counts.culled, counts.edges) == (2, 2, 36)
+    assert (counts.unsound, counts.unsound_not_culled) == (2, 0)
 
 
 def test_depth_is_steeper_close_to_the_eye():
@@ -176,4 +178,4 @@ def test_depth_is_steeper_close_to_the_eye():
     eye = Perspective(eye=(0, -100, 0), target=(0, 0, 0), fov=60.0)
     _, flat, _ = planned(near_far, "front")
     _, plan, _ = planned(near_far, "front", perspective=eye)
-    assert plan.edges.delta / flat.edges.delta == pytest.approx([1, (100 / 300) ** 2])
+    assert plan.visibility_input.delta / flat.visibility_input.delta == pytest.approx([1, (100 / 300) ** 2])

@@ -26,7 +26,7 @@ def drawn(model, view, pixels):
     options = Options(accuracy=0.01, **AT_SIZE)
     session = Session(model, [view], options)
     draft = session.drafts()[0]
-    return hidden_lines(draft.image, session.plan(draft, draft.image).edges.role, pixels, Watch())
+    return hidden_lines(draft.image, session.plan(draft, draft.image).visibility_input.role, pixels, Watch())
 
 
 def length(ink, visible):

@@ -54,7 +54,7 @@ def pieces(slope, *, own=True, face=0, stretches=((0.0, 1.0),), beside=(UNKNOWN,
         np.zeros(0, np.int32),
     )
     no = np.array([False])
-    plan = _kernel.Plan.of(
+    given = _kernel.VisibilityInput.of(
         np.zeros(1, np.int32),
         np.zeros(len(edges), np.int32),
         np.array([1] + [0] * (len(edges) - 1), np.uint8),
@@ -65,7 +65,7 @@ def pieces(slope, *, own=True, face=0, stretches=((0.0, 1.0),), beside=(UNKNOWN,
         tight=no,
         drawn=[],
     )
-    found = _kernel.visibility(mesh, np.array(points, float), plan, told if own else None)
+    found = _kernel.visibility(mesh, np.array(points, float), given, told if own else None)
     assert set(found.edge.tolist()) == {0}
     t0, t1, state = found.t0.round(6).tolist(), found.t1.round(6).tolist(), found.state.tolist()
     return list(zip(t0, t1, state, strict=True))

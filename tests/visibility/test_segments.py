@@ -32,7 +32,7 @@ def solve(monkeypatch):
     def call(hidden=None, contact=True):
         silhouettes = None if hidden is None else SimpleNamespace(hidden=hidden, own=OwnFaces.none())
         image = SimpleNamespace(silhouettes=silhouettes, mesh=lambda: "mesh")
-        plan = SimpleNamespace(edges="edges", contact=contact)
+        plan = SimpleNamespace(visibility_input="input", contact=contact)
         for name in ("crossings", "piercings", "pyramid"):
             setattr(plan, name, name)
         return segments.solve(image, plan, np.zeros((2, 3)))
@@ -50,7 +50,7 @@ def test_the_answer_is_handed_on(solve):
 
 def test_the_kernel_is_told_the_plan_and_its_steps(solve):
     solve(), solve(contact=False)
-    assert [given[2] for given in solve.arguments] == ["edges", "edges"]
+    assert [given[2] for given in solve.arguments] == ["input", "input"]
     steps = {"crossings": "crossings", "piercings": "piercings", "pyramid": "pyramid", "arithmetic": "exact"}
     assert solve.steps == [{"contact": True, **steps}, {"contact": False, **steps}]
 
@@ -70,7 +70,7 @@ WIRE = 5
 def seen(tight=False, hidden=None, depth=1.5, contact=True):
     """The pieces of the wire and of `hidden` edges: edge and state. tight: the wire runs on the square's surface."""
     mesh, _ = mesh_with_wire(POINTS, TRIANGLES, (4, 5))
-    plan = _kernel.Plan.of(
+    given = _kernel.VisibilityInput.of(
         np.zeros(2, np.int32),
         np.array([0] * WIRE + [1], np.int32),
         np.array([0] * WIRE + [1], np.uint8),
@@ -81,7 +81,7 @@ def seen(tight=False, hidden=None, depth=1.5, contact=True):
         tight=np.array([False, tight]),
         drawn=[],
     )
-    return _kernel.visibility(mesh, POINTS, plan, None, hidden, contact=contact)
+    return _kernel.visibility(mesh, POINTS, given, None, hidden, contact=contact)
 
 
 def test_states_are_numbered_as_the_kernel_has_them():

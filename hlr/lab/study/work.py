@@ -185,7 +185,7 @@ def _zbuffer(job: Job) -> Point:
     watch("plan")
     image = image_of(session.scene, camera, draft.image.placement)
     plan = session.plan(draft, image)
-    lines = hidden_lines(image, plan.edges.role, int(job.setting), watch)
+    lines = hidden_lines(image, plan.visibility_input.role, int(job.setting), watch)
     watch.stop()
     return _rival(job, lines, session.source, camera, pixel, watch)
 

@@ -40,7 +40,7 @@ MARGIN = 2.0
 def hidden_lines(image: Image, role: npt.NDArray[np.uint8], pixels: int, watch: Watch) -> Polylines:
     """The image's drawn edges and the contours of its curved faces, cut where their visibility changes.
 
-    role (e,) as in `hlr.visibility.plan.Plan`; pixels along the longer side of the buffer; parallel views only.
+    role (e,) as in `hlr._kernel.VisibilityInput`; pixels along the longer side of the buffer; parallel views only.
     """
     watch("visibility")
     camera, per_model = image.camera, image.placement.per_model

@@ -69,7 +69,7 @@ def visibility(scene: Scene, way: Way, threads: int = 1, arithmetic: str = "exac
         parts = max(scene.parts, default=-1) + 2
         edge_part = np.array([scene.part_of((int(i), int(j))) % parts for i, j in edges], dtype=np.int32)
     mesh = _kernel.Mesh(points, triangles, np.ascontiguousarray(edges), np.ascontiguousarray(offsets), incident)
-    plan = _kernel.Plan.of(
+    given = _kernel.VisibilityInput.of(
         triangle_part,
         edge_part,
         np.full(len(edges), DRAWN, dtype=np.uint8),
@@ -81,7 +81,7 @@ def visibility(scene: Scene, way: Way, threads: int = 1, arithmetic: str = "exac
         drawn=[],
     )
     with at_most(threads):
-        found = _kernel.visibility(mesh, points, plan, arithmetic=arithmetic)
+        found = _kernel.visibility(mesh, points, given, arithmetic=arithmetic)
     pieces: dict[Edge, list[Piece]] = {}
     # State 3, an edge that dives into a face, counts as within the tolerance.
     for number, t0, t1, state in zip(found.edge, found.t0, found.t1, found.state, strict=True):

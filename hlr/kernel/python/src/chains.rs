@@ -9,8 +9,8 @@ use pyo3::prelude::*;
 use super::arrays::{expect_below, expect_len, expect_slice_below, flat, rows};
 use super::guard::caught;
 use super::mesh_input::Mesh;
-use super::plan::Plan;
 use super::visibility::Visibility;
+use super::visibility_input::VisibilityInput;
 use hlr_linework::lines::candidates::{About, Chains as Found, Surface, add_outlines};
 use hlr_linework::lines::chain::{Straight, chain as chain_edges};
 use hlr_linework::lines::drawing::Kind;
@@ -130,7 +130,7 @@ impl Chains {
     fn new(
         py: Python<'_>,
         walks: &Walks,
-        plan: &Plan,
+        input: &VisibilityInput,
         mesh: &Mesh,
         triangle_part: PyReadonlyArray1<'_, i32>,
         triangle_face: PyReadonlyArray1<'_, i32>,
@@ -138,7 +138,7 @@ impl Chains {
         found: &Visibility,
     ) -> PyResult<Chains> {
         caught(py, || {
-            let (reading, of) = (mesh.reading(py)?, plan.reading(py)?);
+            let (reading, of) = (mesh.reading(py)?, input.reading(py)?);
             let all = reading.slices()?;
             let (edges, triangles) = (all.edges, all.triangles.len());
             let surface = Surface {
@@ -151,8 +151,8 @@ impl Chains {
                 triangle_face: flat(&triangle_face, "triangle_face")?,
                 has_faces: flat(&has_faces, "has_faces")?,
                 facing: &found.facing,
-                role: &plan.role,
-                groups: plan.groups(true).len(),
+                role: &input.role,
+                groups: input.groups(true).len(),
             };
             expect_len("triangle_part", surface.triangle_part.len(), triangles)?;
             expect_len("triangle_face", surface.triangle_face.len(), triangles)?;
@@ -162,8 +162,8 @@ impl Chains {
             expect_slice_below("triangle_part", surface.triangle_part, surface.has_faces.len())?;
             expect_below("found", found.edge.iter().copied(), edges.len())?;
             expect_below("edges of walks", walks.edges.iter().copied(), edges.len())?;
-            expect_below("classes of walks", walks.about.iter().map(|a| i32::from(a.kind.0)), plan.drawn.len())?;
-            let mut out = walks.chosen(&plan.drawn);
+            expect_below("classes of walks", walks.about.iter().map(|a| i32::from(a.kind.0)), input.drawn.len())?;
+            let mut out = walks.chosen(&input.drawn);
             add_outlines(&surface, &found.edge, &mut out);
             Ok(Chains(Arc::new(out)))
         })

@@ -25,7 +25,6 @@ mod methods;
 mod outlined;
 mod painters;
 mod parts;
-mod plan;
 mod preview;
 mod raster;
 mod silhouette;
@@ -35,6 +34,7 @@ mod topology;
 mod true_surfaces;
 mod view;
 mod visibility;
+mod visibility_input;
 
 use pyo3::prelude::*;
 
@@ -51,7 +51,8 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(visibility::visibility, m)?)?;
     m.add_class::<mesh_input::Mesh>()?;
     m.add_class::<groups::Groups>()?;
-    m.add_class::<plan::Plan>()?;
+    m.add_class::<visibility_input::VisibilityInput>()?;
+    m.add_class::<visibility_input::VisibilityCounts>()?;
     m.add_class::<visibility::OwnFaces>()?;
     m.add_class::<visibility::Visibility>()?;
     m.add_function(wrap_pyfunction!(clash::clashes, m)?)?;

@@ -8,9 +8,9 @@ use pyo3::types::PyDict;
 use super::arrays::{expect_ascending, expect_below, expect_len, flat as slice, rows};
 use super::guard::caught;
 use super::mesh_input::Mesh;
-use super::plan::Plan;
 use super::threads::run;
 use super::view::{Flat, arrays, flat};
+use super::visibility_input::VisibilityInput;
 use hlr_linework::lines::runs::Piece;
 use hlr_visibility::scan::drawn::as_drawn;
 use hlr_visibility::scan::invisibility::State;
@@ -162,14 +162,14 @@ fn state_of(number: u8) -> State {
 
 /// Visible and hidden pieces of the edges that have a role, and of those that are `hidden`.
 #[pyfunction]
-#[pyo3(signature = (mesh, projected, plan, own = None, hidden = None, *, contact = true, crossings = true,
+#[pyo3(signature = (mesh, projected, input, own = None, hidden = None, *, contact = true, crossings = true,
     piercings = true, pyramid = false, arithmetic = "exact"))]
 #[allow(clippy::too_many_arguments)] // half of them are options
 pub fn visibility<'py>(
     py: Python<'py>,
     mesh: &Mesh,
     projected: PyReadonlyArray2<'py, f64>,
-    plan: &Plan,
+    input: &VisibilityInput,
     own: Option<&OwnFaces>,
     hidden: Option<PyReadonlyArray1<'py, bool>>,
     contact: bool,
@@ -186,8 +186,8 @@ pub fn visibility<'py>(
     };
     let reading = mesh.reading(py)?;
     let all = reading.slices()?;
-    let of = plan.reading(py)?;
-    let told = plan.groups(contact);
+    let of = input.reading(py)?;
+    let told = input.groups(contact);
     let scene = Scene {
         points: rows::<f64, 3>(&projected, "projected")?,
         triangles: all.triangles,
@@ -196,7 +196,7 @@ pub fn visibility<'py>(
         offsets: all.offsets,
         incident: all.incident,
         edge_group: slice(&of.1, "edge")?,
-        role: &plan.role,
+        role: &input.role,
         groups: &told,
     };
     expect_len("projected", scene.points.len(), all.points.len())?;

@@ -16,7 +16,7 @@ use super::view::{Flat, arrays, flat};
 use hlr_linework::lines::camera::Camera as PaperCamera;
 use hlr_mesh::groups::Groups as Columns;
 use hlr_visibility::plan::contact::{Contact, Depths, coming_near};
-use hlr_visibility::plan::roles::{Roles, counts, edge_roles, told};
+use hlr_visibility::plan::roles::{Counts, Roles, counts, edge_roles, told};
 use hlr_visibility::scan::scene::Group;
 
 /// Contact depths: of curved and of planar groups, in model units; of meshes without B-rep, as a share of the scene.
@@ -24,7 +24,7 @@ pub(super) fn depths([curved, planar, share]: [f64; 3]) -> Depths {
     Depths { curved, planar, share }
 }
 
-/// What a plan was decided for.
+/// What an input was decided for.
 struct View {
     groups: Arc<Columns>,
     camera: PaperCamera,
@@ -32,18 +32,18 @@ struct View {
 
 /// What the visibility pass is told of edges and groups.
 #[pyclass(frozen)]
-pub struct Plan {
+pub struct VisibilityInput {
     triangle: Py<PyArray1<i32>>,
     edge: Py<PyArray1<i32>>,
     pub(super) role: Vec<u8>,
     pub(super) drawn: Vec<bool>,
     groups: Vec<Group>,
-    /// None where the plan was given.
+    /// None where the input was given.
     view: Option<View>,
 }
 
-arrays! { Plan {
-    role: flat Flat<'py, u8> = |p| &p.role;
+arrays! { VisibilityInput {
+    role: flat Flat<'py, u8> = |i| &i.role;
 }
 
     /// Decides for a view of a scene.
@@ -62,7 +62,7 @@ arrays! { Plan {
         camera: &Camera,
         contact: [f64; 3],
         rounding: f64,
-    ) -> PyResult<Plan> {
+    ) -> PyResult<VisibilityInput> {
         caught(py, || {
             let (curved, kind) = (slice(&curved, "curved")?, slice(&kind, "kind")?);
             let hidden = hidden.as_ref().map_or(Ok(&[][..]), |hidden| slice(hidden, "hidden"))?;
@@ -76,11 +76,11 @@ arrays! { Plan {
             let contact = Contact::of(&groups.0, &camera.0, depths(contact), rounding);
             let told = told(&groups.0, &contact);
             let view = View { groups: groups.0.clone(), camera: camera.0 };
-            Plan { triangle, edge, role, drawn, groups: told, view: Some(view) }.checked(py)
+            VisibilityInput { triangle, edge, role, drawn, groups: told, view: Some(view) }.checked(py)
         })
     }
 
-    /// A plan that is decided already.
+    /// An input that is decided already.
     #[staticmethod]
     #[pyo3(signature = (triangle, edge, role, *, cull, sound, delta, cap, tight, drawn))]
     #[allow(clippy::too_many_arguments)] // one argument per column: the stub names them
@@ -95,7 +95,7 @@ arrays! { Plan {
         cap: PyReadonlyArray1<'_, f64>,
         tight: PyReadonlyArray1<'_, bool>,
         drawn: Vec<bool>,
-    ) -> PyResult<Plan> {
+    ) -> PyResult<VisibilityInput> {
         caught(py, || {
             let (cull, sound, tight) = (slice(&cull, "cull")?, slice(&sound, "sound")?, slice(&tight, "tight")?);
             let (delta, cap) = (slice(&delta, "delta")?, slice(&cap, "cap")?);
@@ -107,7 +107,7 @@ arrays! { Plan {
             let group =
                 |g: usize| Group { cull: cull[g], sound: sound[g], delta: delta[g], cap: cap[g], tight: tight[g] };
             let (groups, role) = ((0..cull.len()).map(group).collect(), slice(&role, "role")?.to_vec());
-            Plan { triangle, edge, role, drawn, groups, view: None }.checked(py)
+            VisibilityInput { triangle, edge, role, drawn, groups, view: None }.checked(py)
         })
     }
 
@@ -130,16 +130,31 @@ arrays! { Plan {
         coming_near(&view.groups, &view.camera, &delta, spare, lift).ok_or_else(not_finite)
     }
 
-    /// Groups with triangles, groups culled, groups that may pass through themselves, those of them that are not culled,
-    /// and edges with a role.
-    fn counts(&self, py: Python<'_>) -> PyResult<(usize, usize, usize, usize, usize)> {
-        let c = counts(&self.of_view()?.groups, slice(&self.reading(py)?.0, "triangle")?, &self.role);
-        Ok((c.faced, c.culled, c.unsound, c.unsound_not_culled, c.edges))
+    /// Numbers that decide which steps the pass takes.
+    fn counts(&self, py: Python<'_>) -> PyResult<VisibilityCounts> {
+        let triangle = self.reading(py)?.0;
+        Ok(VisibilityCounts::from(counts(&self.of_view()?.groups, slice(&triangle, "triangle")?, &self.role)))
     }
 }
 
-impl Plan {
-    fn checked(self, py: Python<'_>) -> PyResult<Plan> {
+/// Numbers that decide which steps the pass takes, as `Counts` has them.
+#[pyclass(frozen, get_all)]
+pub struct VisibilityCounts {
+    faced: usize,
+    culled: usize,
+    unsound: usize,
+    unsound_not_culled: usize,
+    edges: usize,
+}
+
+impl From<Counts> for VisibilityCounts {
+    fn from(Counts { faced, culled, unsound, unsound_not_culled, edges }: Counts) -> VisibilityCounts {
+        VisibilityCounts { faced, culled, unsound, unsound_not_culled, edges }
+    }
+}
+
+impl VisibilityInput {
+    fn checked(self, py: Python<'_>) -> PyResult<VisibilityInput> {
         let of = self.reading(py)?;
         let edges = slice(&of.1, "edge")?;
         expect_slice_below("group of triangles", slice(&of.0, "triangle")?, self.groups.len())?;
@@ -163,7 +178,7 @@ impl Plan {
     }
 
     fn of_view(&self) -> PyResult<&View> {
-        self.view.as_ref().ok_or_else(|| PyValueError::new_err("this plan was not decided for a view"))
+        self.view.as_ref().ok_or_else(|| PyValueError::new_err("this input was not decided for a view"))
     }
 
     fn column<'py, T: numpy::Element>(&self, py: Python<'py>, of: impl Fn(&Group) -> T) -> Bound<'py, PyArray1<T>> {
