@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection
 import numpy as np
 
 from hlr._kernel import MeshScene
-from hlr.common.types import Ints
+from hlr.common.types import Floats, Ints
 from hlr.drawing.notes import Note
 from hlr.scene.scene import ScenePart
 from hlr.source.part_meshes import PartMeshes
@@ -126,9 +126,21 @@ def _is_flat(whole: PartMeshes, part: int) -> bool:
     if not tables.face_planar[slice(*tables.face_start[part : part + 2].tolist())].all():
         return False
     points = tables.points[slice(*tables.point_start[part : part + 2].tolist())]
-    points = points - points.mean(axis=0)
-    normal = np.linalg.svd(points, full_matrices=False)[2][2]
-    return bool(abs(points @ normal).max() <= FLAT * abs(points).max())
+    return _in_one_plane(points)
+
+
+def _in_one_plane(points: Floats) -> bool:
+    """All points (n, 3) lie in one plane, or in one line: the plane of three of them that lie far apart."""
+    points = points - points[0]
+    along = _longest(points)
+    normal = _longest(np.cross(along, points))  # of the triangle with this side that is highest
+    size, area = np.linalg.norm(along), np.linalg.norm(normal)
+    return bool(area <= FLAT * size**2 or abs(points @ normal).max() <= FLAT * size * area)
+
+
+def _longest(vectors: Floats) -> Floats:
+    longest: Floats = vectors[np.linalg.norm(vectors, axis=1).argmax()]
+    return longest
 
 
 def _count(number: int, what: str) -> str:

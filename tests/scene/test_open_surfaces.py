@@ -38,6 +38,18 @@ def bowl():
     return cq.Workplane().sphere(5).cut(block).faces("%SPHERE").val()
 
 
+def folded(size, rise, width=1.0):
+    """Two rectangles side by side, the second of which rises, far from the origin and tilted; lengths by their size."""
+
+    def rectangle(x0, z0, x1, z1):
+        corners = [(x0, 0, z0), (x1, 0, z1), (x1, width, z1), (x0, width, z0)]
+        places = [tuple(size * c for c in corner) for corner in corners]
+        return cq.Face.makeFromWires(cq.Wire.makePolygon([cq.Vector(*place) for place in places], close=True))
+
+    both = cq.Compound.makeCompound([rectangle(0, 0, 0.5, 0), rectangle(0.5, 0, 1, rise)])
+    return both.rotate(cq.Vector(), cq.Vector(1, 2, 3), 40).translate(cq.Vector(30 * size, -20 * size, 10 * size))
+
+
 @pytest.mark.parametrize(("make", "edges"), [(tray, 8), (wall, 2), (bowl, 1)])
 def test_an_open_surface_is_a_remark_with_the_number_of_its_edges(make, edges):
     (note,) = hlr.draw(make(), "iso", strict=True, **AT_SIZE).notes
@@ -57,6 +69,19 @@ def test_a_flat_sketch_is_told_nothing():
     assert drawing.lines and not drawing.notes
     (part,) = hlr.info(sketch()).parts
     assert not part.closed and not part.defects
+
+
+@pytest.mark.parametrize("size", [1.0, 100_000.0])
+def test_what_lies_in_one_plane_but_for_rounding_is_flat(size):
+    """Millimetres: as small as a pin, and as long as a bridge."""
+    assert not defects(folded(size, 0.0)) and not defects(folded(size, 1e-8))
+    assert defects(folded(size, 1e-6)) and defects(folded(size, 0.1))
+
+
+def test_a_strip_that_is_hardly_more_than_a_line_is_flat():
+    """100 m by 1 mm, and by 1 nm, where rounding decides how it is turned around its length."""
+    assert not defects(folded(100_000.0, 0.0, 1e-5)) and defects(folded(100_000.0, 1e-6, 1e-5))
+    assert not defects(folded(100_000.0, 0.0, 1e-11))
 
 
 def test_a_solid_that_is_open_is_a_warning_as_ever():
