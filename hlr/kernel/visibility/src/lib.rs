@@ -5,4 +5,6 @@
 pub mod boxes;
 pub mod clash;
 pub mod plan;
+#[cfg(test)]
+mod random;
 pub mod scan;

@@ -5,6 +5,8 @@
 
 use std::cell::Cell;
 
+use hlr_brep::geometry::vector::{cross, dot, sub};
+
 use super::boxes::{Bounds, Tree};
 
 pub type Vec3 = [f64; 3];
@@ -18,18 +20,6 @@ pub struct Caster<'a> {
 /// Tolerance beyond a triangle's sides, in barycentric coordinates: a ray between two triangles that share an edge
 /// meets one of them.
 const BESIDE: f64 = 1e-12;
-
-fn minus(a: &Vec3, b: &Vec3) -> Vec3 {
-    [0, 1, 2].map(|k| a[k] - b[k])
-}
-
-fn dot(a: &Vec3, b: &Vec3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: &Vec3, b: &Vec3) -> Vec3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
 
 impl<'a> Caster<'a> {
     pub fn new(points: &'a [Vec3], triangles: &'a [[i32; 3]]) -> Self {
@@ -71,13 +61,13 @@ impl<'a> Caster<'a> {
     /// The t in 0..1 at which a triangle meets origin + t * way.
     fn meeting(&self, triangle: u32, origin: &Vec3, way: &Vec3) -> Option<f64> {
         let [a, b, c] = self.triangles[triangle as usize].map(|i| &self.points[i as usize]);
-        let (ab, ac) = (minus(b, a), minus(c, a));
+        let (ab, ac) = (sub(b, a), sub(c, a));
         let across = cross(way, &ac);
         let volume = dot(&ab, &across);
         if volume == 0.0 {
             return None;
         }
-        let from = minus(origin, a);
+        let from = sub(origin, a);
         let u = dot(&from, &across) / volume;
         let q = cross(&from, &ab);
         let v = dot(way, &q) / volume;

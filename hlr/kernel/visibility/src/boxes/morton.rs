@@ -121,14 +121,11 @@ fn sort_within_cells(items: &mut [Item], codes: &[u64], shift: u32, whole: usize
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::bits;
 
     #[test]
     fn digits_sort_as_comparisons_do() {
-        let mut state = 1u64;
-        let mut random = || {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            state >> 33
-        };
+        let mut random = bits(1);
         for bits in [33, 12, 0] {
             let mut codes: Vec<u64> = (0..5000).map(|k| (random() & ((1 << bits) - 1)) << INDEX_BITS | k).collect();
             let mut expected = codes.clone();

@@ -126,6 +126,7 @@ impl Tree {
 mod tests {
     use super::super::aabb::Aabb;
     use super::*;
+    use crate::random::below;
 
     #[derive(Default)]
     struct Pairs(Vec<[u32; 2]>);
@@ -138,11 +139,7 @@ mod tests {
 
     #[test]
     fn finds_what_nested_loops_find() {
-        let mut state = 1u64;
-        let mut random = |n: i32| {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            ((state >> 33) as i32).rem_euclid(n)
-        };
+        let mut random = below(1);
         for count in [0, 1, 30, 700, 4200] {
             let mut boxes = |first: u32| -> Vec<Item> {
                 let mut cube = || {

@@ -129,14 +129,11 @@ fn build(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::below;
 
     #[test]
     fn finds_what_a_plain_search_finds() {
-        let mut state = 1u64;
-        let mut random = |n: i32| {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            ((state >> 33) as i32).rem_euclid(n)
-        };
+        let mut random = below(1);
         let mut cube = |size: i32| {
             let low = [random(100), random(100), random(100)];
             Aabb { low, high: [low[0] + random(size), low[1] + random(size), low[2] + random(size)] }

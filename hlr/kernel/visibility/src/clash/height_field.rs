@@ -215,6 +215,7 @@ pub fn only_at(points: &[Point], a: &[i32; 3], b: &[i32; 3], corner: i32) -> boo
 mod tests {
     use super::super::triangle_pair::{Numbered, meet};
     use super::*;
+    use crate::random::below;
 
     fn told(points: &[Point], triangles: &[[i32; 3]]) -> bool {
         let corners = |t: &[i32; 3]| t.map(|v| &points[v as usize]);
@@ -279,11 +280,7 @@ mod tests {
 
     #[test]
     fn where_it_says_so_no_two_triangles_meet() {
-        let mut state = 1u64;
-        let mut random = |n: i32| {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            ((state >> 33) as i32).rem_euclid(n)
-        };
+        let mut random = below(1);
         let (mut fields, mut meeting) = (0, 0);
         for _ in 0..4000 {
             // A sheet whose corners are moved at random until it folds over.
@@ -305,11 +302,8 @@ mod tests {
 
     #[test]
     fn triangles_that_meet_at_a_corner_alone() {
-        let mut state = 7u64;
-        let mut random = |n: i32| {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            ((state >> 33) as i32).rem_euclid(n) - n / 2
-        };
+        let mut below = below(7);
+        let mut random = |n: i32| below(n) - n / 2;
         let (mut alone, mut more) = (0, 0);
         for _ in 0..20_000 {
             let points: Vec<Point> = (0..5).map(|_| [random(9), random(9), random(9)]).collect();

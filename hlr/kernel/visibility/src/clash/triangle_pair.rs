@@ -247,6 +247,7 @@ fn shallower(side: &[i128; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::below;
 
     fn met(a: [Point; 3], b: [Point; 3]) -> Option<Meeting> {
         let (a, b) = (a.each_ref(), b.each_ref());
@@ -294,11 +295,7 @@ mod tests {
 
     #[test]
     fn what_is_called_apart_does_not_meet() {
-        let mut state = 1u64;
-        let mut random = |n: i32| {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            ((state >> 33) as i32).rem_euclid(n)
-        };
+        let mut random = below(1);
         let (mut told, mut met, mut on) = (0, 0, 0);
         for k in 0..20_000 {
             let range = [5, 50, 1 << 30][k % 3];

@@ -184,6 +184,7 @@ fn plane(face: &Face) -> Option<Plane> {
 mod tests {
     use super::super::planar_faces::Edges;
     use super::*;
+    use crate::random::below;
     use hlr_mesh::topology::topology;
 
     const SIDE: i32 = 8;
@@ -225,11 +226,8 @@ mod tests {
 
     #[test]
     fn what_is_found_is_the_same_with_and_without() {
-        let mut state = 7u64;
-        let mut random = |low: i32, high: i32| {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            low + ((state >> 33) as i32).rem_euclid(high - low)
-        };
+        let mut below = below(7);
+        let mut random = |low: i32, high: i32| low + below(high - low);
         let mut met = 0;
         for count in [0, 1, 3, 20, 3 * MOST as usize] {
             let mut corner = || [random(-500, 8500), random(-500, 8500), 1000 * random(-1, 2)];

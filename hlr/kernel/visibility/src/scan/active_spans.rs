@@ -273,6 +273,7 @@ fn by_slot(slots: usize, found: &[Vec<(u32, u32)>]) -> (Vec<u32>, Vec<u32>) {
 mod tests {
     use super::super::mesh::SnappedGroup;
     use super::*;
+    use crate::random::below;
     use hlr_exact::arithmetic::Exact;
 
     const DELTA: i64 = 5;
@@ -301,11 +302,7 @@ mod tests {
 
     #[test]
     fn no_point_behind_a_polygon_is_overlooked() {
-        let mut state = 1u64;
-        let mut random = |n: i32| {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            ((state >> 33) as i32).rem_euclid(n)
-        };
+        let mut random = below(1);
         let (mut behind, mut tied) = (0, 0);
         for round in 0..300 {
             let size = [3, 20, 400][round % 3];

@@ -249,9 +249,8 @@ fn alone<A: Arithmetic>(
                 segments.clear();
                 if mesh.incident(edge as usize).iter().any(|&t| table.counted(t as usize)) {
                     segments.push(Segment { start: 0.0, end: 1.0, state: State::Visible });
-                } else if !exact.decide::<A>(edge as usize, &mut segments) {
-                    out.contradictions += 1;
-                    segments.push(Segment { start: 0.0, end: 1.0, state: State::Hidden });
+                } else {
+                    out.decide::<A>(exact, edge, &mut segments);
                 }
                 out.pieces.extend(segments.iter().map(|&segment| Piece { edge, segment }));
             }
@@ -308,6 +307,16 @@ struct Walked {
     contradictions: u64,
 }
 
+impl Walked {
+    /// An edge by the slow test; hidden where even that contradicts itself.
+    fn decide<A: Arithmetic>(&mut self, exact: &ExactQuery, edge: u32, segments: &mut Vec<Segment>) {
+        if !exact.decide::<A>(edge as usize, segments) {
+            self.contradictions += 1;
+            segments.push(Segment { start: 0.0, end: 1.0, state: State::Hidden });
+        }
+    }
+}
+
 fn walk_all<A: Arithmetic>(
     mesh: &Mesh,
     drawn: &[u32],
@@ -345,10 +354,7 @@ fn walk_all<A: Arithmetic>(
                 let (start, end) = (seeds.at::<A>(mesh, group, a, b), seeds.at::<A>(mesh, group, b, a));
                 if !walk(start, own, end, &mut segments) {
                     out.failed += 1;
-                    if !exact.decide::<A>(edge as usize, &mut segments) {
-                        out.contradictions += 1;
-                        segments.push(Segment { start: 0.0, end: 1.0, state: State::Hidden });
-                    }
+                    out.decide::<A>(exact, edge, &mut segments);
                 }
                 out.pieces.extend(segments.iter().map(|&segment| Piece { edge, segment }));
             }
