@@ -69,7 +69,7 @@ class _InAssemblies(Protocol):
     """A source whose parts are in assemblies that their names do not say."""
 
     def assemblies(self) -> Mapping[str, Sequence[str]]:
-        """By the names of parts, the assemblies that they are in."""
+        """By the names of parts, the assemblies that they are in, and their places there."""
 
 
 def matching(patterns: Sequence[str], source: Source, option: str) -> set[str]:

@@ -84,6 +84,40 @@ def test_assemblies_of_a_step_file(cached, tmp_path, monkeypatch):
         parts(AS1, only=["rod-asembly"])
 
 
+@pytest.mark.parametrize("cached", [False, True])
+def test_parts_of_a_step_file_go_by_the_name_of_their_place(cached, tmp_path, monkeypatch):
+    """One washer, used twice under two names: both are called by the first."""
+    cq = pytest.importorskip("cadquery")
+    washer = cq.Workplane().circle(4).circle(2).extrude(1)
+    stack = cq.Assembly(name="stack").add(washer, name="lower").add(washer, name="upper", loc=cq.Location((0, 0, 5)))
+    path = tmp_path / "stack.step"
+    stack.export(str(path))
+    if cached:
+        monkeypatch.setenv("HLR_CACHE", str(tmp_path / "kept"))
+        open_source(path)
+    everything = parts(path)
+    assert len(everything) == 2
+    lower, upper = parts(path, only=["lower"]), parts(path, only=["upper"])
+    assert upper == everything[1:] and everything[0] in lower
+    assert parts(path, hide=["upper"]) == everything[:1] and parts(path, only=["stack"]) == everything
+
+
+def test_an_assembly_of_cadquery_in_memory_goes_by_its_name():
+    everything = parts(assembly())
+    assert parts(assembly(), only=["all"]) == everything
+    assert parts(assembly(), only=["all"], hide=["sub"]) == ["plate", "nut"]
+    with pytest.raises(OptionError, match='only "al" matches no part: perhaps "all"'):
+        parts(assembly(), only=["al"])
+
+
+def test_an_assembly_of_build123d_in_memory_goes_by_its_name():
+    bd = pytest.importorskip("build123d")
+    case, lid = bd.Box(4, 4, 4), bd.Pos(0, 0, 9) * bd.Box(4, 4, 1)
+    case.label, lid.label = "case", "lid"
+    whole = bd.Compound(label="gearbox", children=[case, lid])
+    assert parts(whole, only=["gearbox"]) == ["case", "lid"] == parts(whole)
+
+
 @pytest.mark.parametrize("kind", ["mesh", "brep"])
 def test_what_is_left_is_drawn_as_if_it_were_alone(kind):
     source = mesh_scene() if kind == "mesh" else assembly()

@@ -67,7 +67,7 @@ class BrepSource:
         return [part.name for part in self._parts]
 
     def assemblies(self) -> dict[str, tuple[str, ...]]:
-        """By the names of parts, the assemblies that they are in, where their own names do not say them."""
+        """By the names of parts, the assemblies that they are in and their places there, if their names say neither."""
         return {part.name: part.above for part in self._parts if part.above}
 
     def infos(self) -> list[PartInfo]:

@@ -57,7 +57,9 @@ def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float 
     if package == "cadquery":
         return _cadquery(thing, name, color, opacity)
     if package == "build123d":
-        return _build123d(thing, getattr(thing, "label", "") or name, color, opacity)
+        label = getattr(thing, "label", "")
+        leaves = _build123d(thing, label or name, color, opacity)
+        return _inside(label, leaves) if getattr(thing, "children", ()) else leaves
     if isinstance(thing, Iterable) and not isinstance(thing, str | bytes | dict):
         return [leaf for item in thing for leaf in to_leaves(item, name, color, opacity)]
     raise SourceError(f"An object of type {type(thing).__name__} cannot be drawn: pass {what_to_pass()}.")
@@ -65,7 +67,8 @@ def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float 
 
 def _cadquery(thing: Any, name: str, color: Color | None, opacity: float) -> list[Leaf]:
     if _is_instance_of(thing, "Assembly"):
-        return _assembly(thing, None, color, opacity, _name_or_empty(thing.name) or name)
+        own = _name_or_empty(thing.name)
+        return _inside(own, _assembly(thing, None, color, opacity, own or name))
     if _is_instance_of(thing, "Workplane"):
         shapes = [item for item in thing.vals() if _is_instance_of(item, "Shape")]
         return [leaf for item in shapes for leaf in to_leaves(item, name, color, opacity)]
@@ -88,6 +91,11 @@ def _assembly(node: Any, place: Any, color: Color | None, opacity: float, name: 
     for child in node.children:
         leaves.extend(_assembly(child, here, color, opacity, *_nested(path, _name_or_empty(child.name), name)))
     return leaves
+
+
+def _inside(assembly: str, leaves: list[Leaf]) -> list[Leaf]:
+    """The leaves of an assembly that may have a name: it is in none of theirs."""
+    return [replace(leaf, above=(assembly,)) for leaf in leaves] if assembly else leaves
 
 
 def _nested(path: str, own: str, parent: str) -> tuple[str, str]:

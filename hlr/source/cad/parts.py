@@ -21,7 +21,7 @@ class Leaf:
     shape      with its placement: a TopoDS_Shape, or a `hlr.source.cad.kernel_shapes.KernelShape`
     color      of the leaf; opacity: of that colour, 0 to 1
     colors     of solids and faces, by what underlies them, where a file has them; opacities: of those that have one
-    above      names of the assemblies that it is in, where its own name does not say them
+    above      names of the assemblies that it is in, and of its place in them, where its own name does not say them
     """
 
     shape: Any

@@ -141,7 +141,10 @@ class _AssemblyTree:
                 return
         # A free shape has its own placement; that of a product is in the reference to it.
         colors, opacities = self._sub_shape_colors(product)
-        leaf = Leaf(shape.Moved(place, False), name, colors=colors, opacities=opacities, above=assemblies)
+        # It may be known by the name of this place in the assembly as well.
+        of_place = _name(label)
+        known = (*assemblies, of_place) if of_place and of_place != name else assemblies
+        leaf = Leaf(shape.Moved(place, False), name, colors=colors, opacities=opacities, above=known)
         if color is not None:
             leaf.color, leaf.opacity = color[:3], color[3]
         self.leaves.append(leaf)
