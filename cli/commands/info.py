@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from hlr.common.columns import columns, left, right
 from hlr.common.numbers import typed
 from hlr.common.printable import printable
 
@@ -96,11 +97,11 @@ def _table(model: ModelInfo) -> str:
     rows = [_HEADINGS, *(_row(part) for part in model.parts)]
     if len(model.parts) > 1:
         rows.append(_total(model))
-    widths = [max(len(row[i]) for row in rows) for i in range(len(_HEADINGS))]
+    widths = [max(columns(row[i]) for row in rows) for i in range(len(_HEADINGS))]
     lines = [f"{printable(model.source)}: {model.kind}, {size} mm{unit}", ""]
     for row in rows:
-        cells = [row[0].ljust(widths[0])]
-        cells += [cell.rjust(width) for cell, width in zip(row[1:6], widths[1:6], strict=True)]
+        cells = [left(row[0], widths[0])]
+        cells += [right(cell, width) for cell, width in zip(row[1:6], widths[1:6], strict=True)]
         lines.append("  ".join([*cells, row[6]]).rstrip())
     return "\n".join(lines)
 

@@ -92,7 +92,9 @@ def _sources(manifest: Manifest, rule: Rule, output: Path, silent: list[Path], i
     for pattern in patterns:
         files = named(root, pattern, unshown)
         if not files:
-            raise manifest.error((*rule.where, "files"), f"{pattern} names no model under {root}")
+            raise manifest.error(
+                (*rule.where, "files"), f"{pattern} names no model under {root}: mend it, or leave it out"
+            )
         found += files
     outside = [path for path in dict.fromkeys(found) if not path.is_relative_to(output)]
     inside += without([path for path in found if path.is_relative_to(output)], exclude, root)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from hlr.common.columns import columns, left
 from hlr.common.printable import printable
 from hlr.compare.comparison import Comparison
 from hlr.compare.overlay.cells import cells_of, left_out_lines, view_cells, words_of
@@ -40,5 +41,5 @@ def left_out(found: Comparison) -> list[str]:
 def _aligned(cells: list[tuple[str, ...]]) -> list[str]:
     """Rows of a table, the last column as wide as it is."""
     cells = [tuple(map(printable, row)) for row in cells]
-    widths = [max(len(row[column]) for row in cells) for column in range(len(cells[0]) - 1)]
-    return ["  ".join([*(c.ljust(w) for c, w in zip(row, widths, strict=False)), row[-1]]).rstrip() for row in cells]
+    widths = [max(columns(row[column]) for row in cells) for column in range(len(cells[0]) - 1)]
+    return ["  ".join([*(left(c, w) for c, w in zip(row, widths, strict=False)), row[-1]]).rstrip() for row in cells]

@@ -57,7 +57,7 @@ class Truth:
     """What is true at n points.
 
     always    (n,) of lines that every drawing shows: NOTHING, UNCLEAR, HIDDEN or VISIBLE
-    optional  (n,) the same of lines that are drawn or not as one likes, such as smooth edges and seams
+    optional  (n,) the same of lines that a drawing may show or leave out, such as smooth edges and seams
     hidden    (n,) whether any line there is hidden, though a visible one may run there as well
     covered   (n,) whether a visible line runs within reach, which every drawing shows
     away      (n,) millimetres on paper to the nearest line; infinite where it is farther than was looked for

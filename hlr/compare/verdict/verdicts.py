@@ -50,8 +50,8 @@ WORDS: dict[tuple[bool, bool], Verdict] = {
 }
 """Whether the first drawing is right, and the second."""
 
-COVERED = "it is hidden, and so close to a visible line that it is drawn or not as one likes"
-LIKED = "only a smooth edge or a seam runs there, which is drawn or not as one likes"
+COVERED = "it is hidden, and so close to a visible line that a drawing may show it or leave it out"
+LIKED = "only a smooth edge or a seam runs there, which a drawing may show or leave out"
 
 
 @dataclass(frozen=True, slots=True)
