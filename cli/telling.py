@@ -18,9 +18,6 @@ if TYPE_CHECKING:
     from hlr.drawing.notes import Note
 
 
-_OF_MODEL = {"defects", "more-defects", "open-surfaces"}
-
-
 def tell_notes(notes: Iterable[Note], strict: bool = False, quiet: bool = False) -> None:
     """Print each note once, even of several views. strict: a warning raises StrictError; quiet: warnings only."""
     notes = list(dict.fromkeys(notes))
@@ -41,6 +38,7 @@ def of_views(drawings: Sequence[Drawing], told: Sequence[Note] = ()) -> list[Not
     A note that not all views have begins with the names of those that have it, unless it names a section itself or is
     of the model, which is another in a section.
     """
+    from hlr.drawing.notes import NAME_THEIR_VIEW
     from hlr.tables.entry import listed
 
     notes: dict[Note, list[str]] = {}
@@ -49,8 +47,7 @@ def of_views(drawings: Sequence[Drawing], told: Sequence[Note] = ()) -> list[Not
             notes.setdefault(note, []).append(drawing.view.name)
     out = []
     for note, views in notes.items():
-        of_model = note.code in _OF_MODEL or note.text.startswith("section ")
-        of_some = len(views) < len(drawings) and not of_model
+        of_some = len(views) < len(drawings) and note.code not in NAME_THEIR_VIEW
         which = f"view{'s' if len(views) > 1 else ''} {listed(views, 'and')}: " if of_some else ""
         out += [] if note in told else [replace(note, text=which + note.text)]
     return out

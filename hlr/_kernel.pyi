@@ -690,11 +690,8 @@ class Ink:
     ]:
         """How close the hidden lines run, the visible ones, and hidden ones beside visible ones.
 
-        None where there are more than 2 km of them.
-
-        (k,) millimetres of ink whose nearest line alongside is
-        i/64 to (i + 1)/64 mm away; all ink; the side of the square around the smallest line, infinite where there are
-        none.
+        Of each: (k,) millimetres of ink whose nearest line alongside is i/64 to (i + 1)/64 mm away; all ink; the side
+        of the square around the smallest line, infinite where there are none. None where there are more than 2 km.
         """
 
     def left_out(self, pens: tuple[float, float], accuracy: float, order: list[int]) -> Bytes:

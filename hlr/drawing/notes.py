@@ -106,6 +106,12 @@ REMARKS: frozenset[NoteCode] = frozenset(
 )
 """Codes of remarks: the drawing is what was asked for. `strict` does not make errors of them."""
 
+OF_BORDERS: frozenset[NoteCode] = frozenset({"defects", "more-defects", "open-surfaces"})
+"""Codes of notes that count border edges: of a model that was cut they say something else than of the model."""
+
+NAME_THEIR_VIEW: frozenset[NoteCode] = frozenset({*OF_BORDERS, "section-not-cut"})
+"""Codes of notes that are of the model, or else name the section that they are of."""
+
 
 @dataclass(frozen=True, slots=True)
 class Note:

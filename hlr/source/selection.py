@@ -65,11 +65,11 @@ def open_selected(thing: Any, options: PartSelection) -> Source:
 
 
 @runtime_checkable
-class _InAssemblies(Protocol):
-    """A source whose parts are in assemblies that their names do not say."""
+class _AlsoCalled(Protocol):
+    """A source whose parts go by further names."""
 
-    def assemblies(self) -> Mapping[str, Sequence[str]]:
-        """By the names of parts, the assemblies that they are in, and their places there."""
+    def also_called(self) -> Mapping[str, Sequence[str]]:
+        """By the names of parts, those of the assemblies that they are in, and of their places there."""
 
 
 def matching(patterns: Sequence[str], source: Source, option: str) -> set[str]:
@@ -78,7 +78,7 @@ def matching(patterns: Sequence[str], source: Source, option: str) -> set[str]:
     Raises OptionError for a pattern that matches none.
     """
     names = source.names()
-    above = source.assemblies() if isinstance(source, _InAssemblies) else {}
+    above = source.also_called() if isinstance(source, _AlsoCalled) else {}
     found: set[str] = set()
     for pattern in patterns:
         some = {name for name in names if any(matches(each, pattern) for each in (name, *above.get(name, ())))}

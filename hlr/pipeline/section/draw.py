@@ -13,7 +13,7 @@ import numpy as np
 from hlr.common.clock import lap
 from hlr.common.types import Progress
 from hlr.drawing.drawing import Drawing
-from hlr.drawing.notes import Note, Noted
+from hlr.drawing.notes import OF_BORDERS, Note, Noted
 from hlr.errors import counted
 from hlr.image.paper import at_scale
 from hlr.pipeline.section.hatches import with_hatches
@@ -31,9 +31,6 @@ from hlr.source.selection import matching, open_selected
 
 AT_PLANE = 100.0
 """Times what lies so close to a plane lies on it: how far off it a part may end that was cut there."""
-
-OF_BORDERS = {"defects", "more-defects", "open-surfaces"}
-"""Codes of notes that say something else of what is left than of the model."""
 
 
 @dataclass(frozen=True, slots=True)

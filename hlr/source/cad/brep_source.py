@@ -66,8 +66,8 @@ class BrepSource:
         """Name of every part."""
         return [part.name for part in self._parts]
 
-    def assemblies(self) -> dict[str, tuple[str, ...]]:
-        """By the names of parts, the assemblies that they are in and their places there, if their names say neither."""
+    def also_called(self) -> dict[str, tuple[str, ...]]:
+        """By the names of parts, those of their assemblies, and of their places there, where these differ."""
         return {part.name: part.above for part in self._parts if part.above}
 
     def infos(self) -> list[PartInfo]:

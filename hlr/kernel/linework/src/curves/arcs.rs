@@ -51,12 +51,8 @@ impl Rows {
         self.shapes.extend(shape);
     }
 
-    /// Keeps the first `count` rows.
+    /// Keeps the first `count` rows. Those behind are no arcs, so all shapes stay.
     pub fn truncate(&mut self, count: usize) {
-        let shapes = self.arc[count.min(self.arc.len())..].iter().find(|&&i| i >= 0);
-        if let Some(&first) = shapes {
-            self.shapes.truncate(first as usize);
-        }
         self.points.truncate(count);
         self.op.truncate(count);
         self.arc.truncate(count);

@@ -90,3 +90,35 @@ fn follows(placed: &Placed, t: &[f64], flat: &[Vec2], accuracy: f64, bulge: f64)
         off <= accuracy + bulge
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::project::Projection;
+    use super::*;
+    use hlr_brep::geometry::curve::Curve;
+    use std::f64::consts::TAU;
+
+    /// With and without the bend: a chord follows its curve where all places in between do, and no other does.
+    #[test]
+    fn chords_follow_an_ellipse_as_far_as_places_in_between_lie_beside_them() {
+        let projection = Projection([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]);
+        let (mut near, mut far, mut sure) = (0, 0, 0);
+        for width in [10.0, 3.0, 0.4] {
+            let curve = Curve::Ellipse { p: [1.0, 2.0, 3.0], a: [10.0, 0.0, 0.0], b: [0.0, width, 5.0] };
+            let placed = Placed::new(curve, [0.0, TAU], &projection, 1e-6);
+            let bend = placed.paper.most_bend().expect("an ellipse");
+            for k in 0..3000 {
+                let (from, step) = (f64::from(k) * 0.01, f64::from(k % 30 + 1) * 0.1);
+                let t = [from, from + step];
+                let [a, b] = t.map(|t| placed.on_paper(t)[0]);
+                let most = CURVE_BETWEEN * 0.05;
+                let beside = |s: f64| to_segment(&placed.on_paper(from + step * s)[0], &a, &b).0 <= most;
+                let wanted = [0.25, 0.5, 0.75].into_iter().all(beside);
+                assert_eq!(follows(&placed, &t, &[a, b], 0.05, 0.0), wanted, "{width} {from} {step}");
+                *(if wanted { &mut near } else { &mut far }) += 1;
+                sure += usize::from(0.125 * bend * step * step < most);
+            }
+        }
+        assert!(near > 1000 && far > 1000 && sure > 500, "{near} {far} {sure}");
+    }
+}

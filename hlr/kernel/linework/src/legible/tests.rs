@@ -32,6 +32,15 @@ fn spacing(lines: &Lines, sorts: [bool; 2], reach: f64) -> Option<Spacing> {
     }
 }
 
+/// Numbers that look random, and are the same on every run: each time one from 0 to below n.
+fn below(seed: u64) -> impl FnMut(u64) -> f64 {
+    let mut state = seed;
+    move |n| {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        ((state >> 33) % n) as f64
+    }
+}
+
 fn fates(lines: &Lines) -> Vec<Fate> {
     left_out(lines, &Ink::of(lines, [2.0 * PEN; 2]), [PEN, PEN], ACCURACY, &[Kind::SHARP])
 }
@@ -139,11 +148,7 @@ fn all_ink_of_a_line_is_counted_however_many_chords_it_has() {
 
 #[test]
 fn what_meets_no_sought_line_changes_nothing_about_those() {
-    let mut state = 5u64;
-    let mut random = |n: u64| {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        ((state >> 33) % n) as f64
-    };
+    let mut random = below(5);
     let (mut alone, mut together, mut met) = (0, 0, 0);
     for _ in 0..200 {
         let some: Vec<Line> = (0..60)
@@ -174,11 +179,7 @@ fn what_meets_no_sought_line_changes_nothing_about_those() {
 
 #[test]
 fn segments_beside_which_nothing_lies_at_any_place_are_told_at_once() {
-    let mut state = 9u64;
-    let mut random = |n: u64| {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        ((state >> 33) % n) as f64
-    };
+    let mut random = below(9);
     let (mut found, mut told) = (0, 0);
     for _ in 0..300 {
         let mut end = || [random(40), random(40)];
