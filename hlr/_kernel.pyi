@@ -151,10 +151,11 @@ class VisibilityInput:
     """What the visibility pass is told of edges and groups: decided for a view of a scene, or, by `of`, given.
 
     triangle (t,), edge (e,): the group of each, not copied; curved (e,), kind (e,): of the edges; hidden (e,): edges
-    that their own body hides have no role; roles (2, 256): by the class of an edge, first beside no curved face, then
-    beside one; drawn: per line class, whether edges of the source are drawn; contact: depths within which surfaces
-    touch, of curved and of planar groups in model units, of meshes as a share of the scene's diagonal; rounding: the
-    same for lines that lie on surfaces and for open sheets, model units. ValueError where they do not fit.
+    that their own body hides have no role; goes_on: by the class of an edge, whether a curved surface goes on across
+    it, and may fold over there; drawn: per line class, whether edges of the source are drawn; contact: depths within
+    which surfaces touch, of curved and of planar groups in model units, of meshes as a share of the scene's diagonal;
+    rounding: the same for lines that lie on surfaces and for open sheets, model units. ValueError where these do not
+    fit.
     """
 
     def __new__(
@@ -165,7 +166,7 @@ class VisibilityInput:
         curved: Bools,
         kind: Bytes,
         hidden: Bools | None,
-        roles: Bytes,
+        goes_on: Bools,
         drawn: list[bool],
         camera: Camera,
         contact: tuple[float, float, float],
@@ -377,12 +378,27 @@ class Outlines:
 
     def __len__(self) -> int: ...
 
-def silhouettes(mesh: Mesh, on: TrueSurfaces, smooth: Bools, source: Ints, camera: Camera, chord: float) -> Outlines:
+def traced_faces(mesh: Mesh, face: Ints, kind: Bytes, tangent: Bools, curved: Bools) -> Bools:
+    """(f,) the faces on which outlines are sought: curved ones, and those that a curved one joins smoothly.
+
+    face (t,): of each triangle; kind (e,): the class of each edge; tangent: by class, whether two faces join smoothly
+    there; curved (f,). ValueError where they do not fit.
+    """
+
+def silhouettes(
+    mesh: Mesh,
+    on: TrueSurfaces,
+    kind: Bytes,
+    goes_on: Bools,
+    walks: tuple[Ints, Ints, Ints],
+    camera: Camera,
+    chord: float,
+) -> Outlines:
     """The outlines of true surfaces.
 
-    smooth (e,): the surface goes on smoothly across the edge; source (e,): the source edge of which it is a chord, -1
-    for none; chord: how far chords may stay off an outline. ValueError where they do not fit, KeyboardInterrupt within
-    milliseconds of Ctrl-C.
+    kind (e,): the class of each edge; goes_on: by class, whether the surface goes on smoothly across the edge; walks:
+    offsets, edges and index of `hlr.scene.scene.Chains`; chord: how far chords may stay off an outline. ValueError
+    where they do not fit, KeyboardInterrupt within milliseconds of Ctrl-C.
     """
 
 class Outlined:
@@ -659,13 +675,16 @@ class Lines:
     def visible(self) -> Bools:
         """(n,)"""
 
+    def counts(self, classes: int) -> tuple[int, list[int]]:
+        """How many lines are visible, and how many there are of each of the first `classes` classes."""
+
     def circles(self) -> int:
         """How many creases and borders without an edge lie on a curve: those of meshes, on circles."""
 
     def chosen(self, chosen: Bools) -> Lines:
         """Those lines that are chosen (n,)."""
 
-    def layers(self, order: list[int], places: int, accuracy: float, cubic: bool) -> list[Layer]:
+    def layers(self, order: Sequence[int], places: int, accuracy: float, cubic: bool) -> list[Layer]:
         """Layers of pen strokes, rounded to 10**-places millimetres; hidden ones first, of each the kinds in `order`.
 
         accuracy: millimetres. cubic: arcs and quadratic curves become cubic. ValueError where a point is not finite.
@@ -690,11 +709,12 @@ class Ink:
     ]:
         """How close the hidden lines run, the visible ones, and hidden ones beside visible ones.
 
-        Of each: (k,) millimetres of ink whose nearest line alongside is i/64 to (i + 1)/64 mm away; all ink; the side
-        of the square around the smallest line, infinite where there are none. None where there are more than 2 km.
+        Of each: (k,) the share of ink whose nearest line alongside is less than 1/64, 2/64 ... mm away, of ink of less
+        than a millimetre its length; the side of the square around the smallest line, infinite where there are none;
+        all ink, millimetres. None where there are more than 2 km.
         """
 
-    def left_out(self, pens: tuple[float, float], accuracy: float, order: list[int]) -> Bytes:
+    def left_out(self, pens: tuple[float, float], accuracy: float, order: Sequence[int]) -> Bytes:
         """(n,) what becomes of each line: 0 drawn, 1 smaller than the pen, 2 between others closer than the pen.
 
         pens: widths of hidden and visible lines, millimetres; accuracy: ends within it meet, millimetres; order: line
@@ -856,6 +876,9 @@ class CutParts:
 
 class BrepMesh:
     """The mesh of a model at one chord error (model units) and turning angle (radians)."""
+
+    def is_sound(self) -> bool:
+        """Whether each face has a mesh with which nothing is wrong: the four methods below name none."""
 
     def faults(self) -> list[tuple[int, str]]:
         """Faces without a mesh: number and reason."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 from hlr.compat.viewport import check_number, check_positive, check_vector
@@ -45,11 +45,10 @@ class PictureOptions:
             ratios = [(self.width - 2.0 * self.marginLeft, width)]
         else:
             ratios = [(FILL_SHARE * self.width, width), (FILL_SHARE * self.height, height)]
-        return min((pixels / length for pixels, length in ratios if length > 0.0), default=1.0)
+        return min([pixels / length for pixels, length in ratios if length > 0.0], default=1.0)
 
-    def size(self, width: float, height: float) -> tuple[float, float]:
-        """Width and height of the picture, for a drawing of this width and height in model units."""
-        scale = self.unit_scale(width, height)
+    def size(self, width: float, height: float, scale: float) -> tuple[float, float]:
+        """Width and height of the picture, for a drawing of this width and height in model units; scale: its own."""
         return (
             width * scale + 2.0 * self.marginLeft if self.width is None else self.width,
             height * scale + 2.0 * self.marginTop if self.height is None else self.height,
@@ -58,10 +57,9 @@ class PictureOptions:
 
 def check_options(given: Mapping[str, Any]) -> PictureOptions:
     """Options by name; raises OptionError with what is allowed."""
-    names = [field.name for field in fields(PictureOptions)]
     for key in given:
-        if key not in names:
-            raise OptionError(f"{key!r} is no option of getSVG: use {', '.join(names)}")
+        if key not in _CHECKS:
+            raise OptionError(f"{key!r} is no option of getSVG: use {', '.join(_CHECKS)}")
     values = {key: _CHECKS[key](value, key) for key, value in given.items()}
     options = PictureOptions(**values)
     if options.width is None and options.height is None:

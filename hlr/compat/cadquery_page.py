@@ -20,7 +20,7 @@ from hlr.drawing.drawing import Drawing
 from hlr.drawing.lines import Lines, held
 from hlr.tables.line_classes import EdgeClass, by_number
 from hlr.writers.number import number
-from hlr.writers.strokes import strokes
+from hlr.writers.strokes import layers_of, places_of
 
 POINTS_PER_PIXEL = 0.75
 """A pixel of CSS is a 96th of an inch."""
@@ -63,9 +63,12 @@ class Page:
 
     def layers(self, cubic: bool) -> list[_kernel.Layer]:
         """Layers with coordinates of the projected model."""
-        found = strokes(self.drawing, cubic=cubic)
-        x, y = np.rint(self.shift * 10.0**found.places).astype(np.int64).tolist()
-        return [layer.moved(x, y) for layer in found.layers]
+        drawing = self.drawing
+        places = places_of(drawing, drawing.bounds)
+        step = 10.0**places
+        x, y = (round(shift * step) for shift in self.shift.tolist())
+        layers = layers_of(held(drawing.lines), places, drawing.accuracy.used, cubic)
+        return [layer.moved(x, y) for layer in layers]
 
 
 def lay_out(picture: ViewportDrawing, options: PictureOptions) -> Page:
@@ -76,7 +79,7 @@ def lay_out(picture: ViewportDrawing, options: PictureOptions) -> Page:
         drawing = replace(drawing, lines=Lines(whole.chosen(whole.visible() | (whole.kinds() != EdgeClass.SMOOTH))))
     x0, y0, x1, y1 = drawing.bounds
     scale = options.unit_scale(x1 - x0, y1 - y0)
-    width, height = options.size(x1 - x0, y1 - y0)
+    width, height = options.size(x1 - x0, y1 - y0, scale)
     left, top = x0 + float(picture.shift[0]), y1 + float(picture.shift[1])
     return Page(
         options=options,

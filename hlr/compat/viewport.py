@@ -6,7 +6,6 @@ perspective: the eye is that far in front of the origin, and the plane through t
 
 from __future__ import annotations
 
-import math
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
@@ -29,6 +28,7 @@ from hlr.request.check import WIDEST
 from hlr.request.directions import axes, normalized
 from hlr.request.options import Options, Perspective, Vector
 from hlr.source import open_source
+from hlr.source.bounds import diagonal
 from hlr.source.model import Source
 from hlr.tables.line_classes import EdgeClass
 
@@ -177,11 +177,14 @@ def _lines_with_seams(drawing: Drawing, opened: Source, seam: bool) -> Sequence[
 def flat_extent(bounds: Floats, viewport: Viewport) -> tuple[float, float]:
     """Width and height of a model's box (2, 3) in the viewport's plane, by parallel rays."""
     low, high = bounds.tolist()
-    width, height = (
-        sum(abs(a) * (upper - lower) for a, lower, upper in zip(axis, low, high, strict=True))
-        for axis in axes(normalized(viewport.direction, "the view direction"), viewport.up)
-    )
-    return width, height
+    right, up = axes(normalized(viewport.direction, "the view direction"), viewport.up)
+    sides = [b - a for a, b in zip(low, high, strict=True)]
+    return _reach(right, sides), _reach(up, sides)
+
+
+def _reach(axis: Vector, sides: Sequence[float]) -> float:
+    """How far a box with these sides reaches along a direction."""
+    return abs(axis[0]) * sides[0] + abs(axis[1]) * sides[1] + abs(axis[2]) * sides[2]
 
 
 def check_vector(value: Any, what: str) -> Vector:
@@ -217,8 +220,7 @@ def _caller_level() -> int:
 
 
 def _default_accuracy(bounds: Floats) -> float:
-    diagonal = math.sqrt(float(((bounds[1] - bounds[0]) ** 2).sum()))
-    return min(DEFAULT_ACCURACY, SMALL_GEOMETRY * diagonal) or DEFAULT_ACCURACY
+    return min(DEFAULT_ACCURACY, SMALL_GEOMETRY * diagonal(bounds)) or DEFAULT_ACCURACY
 
 
 def _dot(a: Sequence[float], b: Sequence[float]) -> float:

@@ -44,29 +44,31 @@ def check_writable(path: Path, make_folder: bool = False) -> os.stat_result | No
 
     make_folder: `write_all` will create the folder, so it need not exist. Returns the status of a file that exists.
     """
+    name = os.fspath(path)
     try:
-        there = os.stat(path)
+        there = os.stat(name)
     except (OSError, ValueError):
-        _check_folder(path, make_folder)
+        _check_folder(name, make_folder)
         return None
     if stat.S_ISDIR(there.st_mode):
         raise WriteError(f"cannot write {path}: it is a folder; give a file name")
     # Renaming would replace even a file that is write-protected.
-    if not os.access(path, os.W_OK):
+    if not os.access(name, os.W_OK):
         raise WriteError(f"cannot write {path}: the file is write-protected")
     if stat.S_ISREG(there.st_mode):
-        _check_folder(Path(os.path.realpath(path)) if os.path.islink(path) else path, False)
+        _check_folder(os.path.realpath(name) if os.path.islink(name) else name, False)
     check_model(path)
     return there
 
 
-def _check_folder(path: Path, make_folder: bool) -> None:
+def _check_folder(path: str, make_folder: bool) -> None:
     """Raise WriteError where no file can be made at `path`."""
-    folder = path.parent
+    folder = os.path.dirname(path) or os.curdir
     if make_folder:
-        folder = next((above for above in (folder, *folder.parents) if above.exists()), folder)
+        above = Path(folder)
+        folder = next((str(each) for each in (above, *above.parents) if each.exists()), folder)
     if not os.path.isdir(folder):
-        if not folder.exists():
+        if not os.path.exists(folder):
             raise WriteError(f"cannot write {path}: the folder {folder} does not exist; create it first")
         raise WriteError(f"cannot write {path}: {folder} is not a folder")
     if not os.access(folder, os.W_OK | os.X_OK):
@@ -89,7 +91,9 @@ def write_all(files: Mapping[Path, bytes], folders: Iterable[Path] = ()) -> None
                 path.write_bytes(data)
                 continue
             # Through a symbolic link to the file it means, not onto the link.
-            target = os.path.realpath(path) if os.path.islink(path) else str(path)
+            target = os.fspath(path)
+            if os.path.islink(target):
+                target = os.path.realpath(target)
             folder, name = os.path.split(target)
             beside = os.path.join(folder, f".{name[:100]}.{os.urandom(4).hex()}.tmp")
             staged.append((path, beside, target))

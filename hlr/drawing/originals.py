@@ -24,7 +24,8 @@ _TEXTURE = re.compile(
 
 def check_model(path: Path) -> None:
     """Raise WriteError where `path` is there and is a model, by its ending or by that of the file that it links to."""
-    names = [str(path), os.path.realpath(path)] if os.path.islink(path) else [str(path)]
+    given = os.fspath(path)
+    names = [given, os.path.realpath(given)] if os.path.islink(given) else [given]
     for name in names:
         if is_model(name) and path.is_file():
             raise WriteError(f"cannot write {path}: it is a model, and a drawing would destroy it; give another name")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from hlr.common.colors import hex_of, readable
@@ -22,6 +23,8 @@ LINE_GROUPS = ((0.7, 0.35), (0.5, 0.25), (0.35, 0.18), (0.25, 0.13))
 
 A2 = (420.0, 594.0)
 """Millimetres."""
+
+_WEIGHT = attrgetter("weight")
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,13 +94,14 @@ def widths_of(
 
 def usual_pens(style: Style, sheet: tuple[float, float] = A2, group: tuple[float, float] | None = None) -> PenSet:
     """The pens of parts for which the style has no rules of their own; sheet, group: as of `widths_of`."""
-    rules = sorted((rule for rule in style.lines if rule.parts is None), key=lambda rule: rule.weight)
+    rules = sorted([rule for rule in style.lines if rule.parts is None], key=_WEIGHT)
     return PenSet((), tuple(rules), *widths_of(style, sheet, group))
 
 
 def usual_pens_of(drawing: Drawing) -> PenSet:
     """The same, of a drawing."""
-    return usual_pens(drawing.style, (drawing.area.width, drawing.area.height), drawing.group)
+    area = drawing.area
+    return usual_pens(drawing.style, (area.width, area.height), drawing.group)
 
 
 def pens_of(drawing: Drawing) -> list[PenSet]:
@@ -107,7 +111,7 @@ def pens_of(drawing: Drawing) -> list[PenSet]:
     usual = [rule for rule in style.lines if rule.parts is None]
     sets = []
     for own, parts in _alike(drawing, [rule for rule in style.lines if rule.parts is not None]).items():
-        rules = sorted((*usual, *own), key=lambda rule: rule.weight)
+        rules = sorted((*usual, *own), key=_WEIGHT)
         sets.append(PenSet(tuple(parts), tuple(rules), wide, narrow))
     return sets
 

@@ -71,6 +71,9 @@ def clipped(image: Image, planner: Planner) -> Image:
     """
     camera = image.camera
     for name, cuts in zip(("near clipping", "side clipping"), _volume(camera, image.placement.aspect), strict=True):
+        if not cuts and not planner.forced:
+            planner.on(name, Facts(perspective=camera.eye is not None))
+            continue
         with planner.deciding():
             facts = Facts(perspective=camera.eye is not None, crossed=sum(_crossed(image, p) for p in cuts))
         begin = perf_counter()

@@ -118,24 +118,10 @@ def _traced(
 
     mesh: of the image; face (t,): numbered through all parts; chord: chord error, model units
     """
-    wanted = surfaces.curved.copy()
-    # Planar faces that a curved face joins smoothly are traced as well: the curved face may fold over against them.
-    bent = _tangent_borders()[image.edge_kind]
-    bent[: len(bent)] &= np.diff(image.offsets) == 2
-    first = image.offsets[:-1][bent]
-    one, two = face[image.incident[first]], face[image.incident[first + 1]]
-    wanted[one[surfaces.curved[two]]] = True
-    wanted[two[surfaces.curved[one]]] = True
-    # Where several chains share a mesh edge, any of them gives the curve of the fold.
-    source = np.full(len(image.edges), -1, np.int32)
-    tied = np.flatnonzero(image.chains.index >= 0)
-    count = np.diff(image.chains.offsets)
-    of_chain = np.full(len(count), -1, np.int32)
-    of_chain[tied] = tied
-    source[image.chains.edges] = np.repeat(of_chain, count)
-    on = surfaces.of(wanted, face)
-    smooth = goes_on()[image.edge_kind]
-    return on, _kernel.silhouettes(mesh, on, smooth, source, image.camera.scaled(1.0), chord)
+    chains, kind = image.chains, image.edge_kind
+    on = surfaces.of(_kernel.traced_faces(mesh, face, kind, _tangent_borders(), surfaces.curved), face)
+    walks = chains.offsets, chains.edges, chains.index
+    return on, _kernel.silhouettes(mesh, on, kind, goes_on(), walks, image.camera.scaled(1.0), chord)
 
 
 def _walks(shown: _kernel.Outlined, edges: int) -> Chains:

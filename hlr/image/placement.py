@@ -100,8 +100,10 @@ class Placement:
 
 def of_one_scale(placements: Sequence[Placement], options: Options) -> list[Placement]:
     """The placements of all views, at one scale where the options ask for that: the smallest."""
-    least = min((placement.scale for placement in placements), default=1.0)
-    return [placement.at_scale(least, options) if options.same_scale else placement for placement in placements]
+    if not options.same_scale or not placements:
+        return list(placements)
+    least = min([placement.scale for placement in placements])
+    return [placement.at_scale(least, options) for placement in placements]
 
 
 def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> Placement:
@@ -109,10 +111,11 @@ def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> P
 
     Raises OptionError for an accuracy that cannot be kept, SourceError for a model without size.
     """
-    if not np.isfinite(bounds).all():
+    low, high = bounds.tolist()
+    if not all(map(math.isfinite, (*low, *high))):
         raise SourceError(f"{source.name} has no finite size: repair the model")
     corners = bounds[CORNERS, AXES]
-    if float((bounds[1] - bounds[0]).max()) <= 0.0:
+    if max([b - a for a, b in zip(low, high, strict=True)]) <= 0.0:
         raise SourceError(f"{source.name} has no size: all of it lies in one point")
     aspect = _aspect(options)
     width, height = _extent(camera, corners, aspect)
@@ -128,8 +131,8 @@ def _extent(camera: Camera, points: Floats, aspect: float) -> tuple[float, float
     """Width and height on the image plane, model units; what lies behind the eye is left out."""
     if camera.eye is None or camera.distance is None or camera.fov is None:
         corners = np.ascontiguousarray(points, np.float64)
-        width, height = (high - low for low, high in camera.scaled(1.0).reach(corners).tolist())
-        return width, height
+        (left, right), (bottom, top) = camera.scaled(1.0).reach(corners).tolist()
+        return right - left, top - bottom
     half = camera.distance * math.tan(math.radians(camera.fov) * 0.5)
     frame = np.array([half * aspect, half])
     before = points[camera.ahead(points) > NEAR * camera.distance]

@@ -114,7 +114,7 @@ def legible(
         return Legible(lines)
     pens = usual if style.wide or style.narrow else _group(seen, under, usual)
     notes = _notes(seen, usual, pens, scale)
-    fates = ink.left_out((pens[1], pens[0]), accuracy, list(in_drawing_order()))
+    fates = ink.left_out((pens[1], pens[0]), accuracy, in_drawing_order())
     out = int(np.count_nonzero(fates))
     planner.spent(LEGIBILITY, perf_counter() - begun, left_out=out)
     if out:
@@ -160,10 +160,7 @@ def _spacings(ink: _kernel.Ink) -> list[Spacing | None]:
 
     None where there is more ink than any page has room for.
     """
-    return [
-        None if found is None else Spacing(np.cumsum(found[0]) / max(found[1], 1.0), found[2], found[1])
-        for found in ink.spacings()
-    ]
+    return [None if found is None else Spacing(*found) for found in ink.spacings()]
 
 
 def _notes(seen: Spacing, usual: Pens, pens: Pens, scale: float) -> tuple[Note, ...]:

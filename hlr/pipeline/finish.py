@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from time import perf_counter
 
-import numpy as np
-
 from hlr.common.clock import Clock, lap
 from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
 from hlr.drawing.fill import Fill
@@ -98,8 +96,8 @@ def finished(
     unused = () if options.only or options.hide else unused_rules(style, image.parts)
     seconds = segments.found.seconds
     for name, steps in STEPS.items():
-        planner.spent(name, sum(seconds[s] for s in steps))
-    cuts = sum(sum(planner.cost(name).values()) for name in ("near clipping", "side clipping"))
+        planner.spent(name, sum([seconds[s] for s in steps]))
+    cuts = sum([sum(planner.cost(name).values()) for name in ("near clipping", "side clipping")])
     rescued = planner.cost("rescue of faces")
     return Drawing(
         source=source.name,
@@ -114,7 +112,7 @@ def finished(
         ),
         unit=source.frame.unit,
         up_axis=source.frame.up,
-        parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in image.parts),
+        parts=tuple([DrawnPart(p.name, p.color, p.transform) for p in image.parts]),
         lines=lines,
         notes=tuple(
             dict.fromkeys(
@@ -146,14 +144,14 @@ STEPS = {
 def _counters(solved: Solved, lines: Sequence[Line], fill: Fill | None) -> dict[str, int]:
     image, plan, segments = solved.image, solved.plan, solved.segments
     kept = held(lines)
-    kinds = np.bincount(kept.kinds(), minlength=len(by_number())).tolist()
+    visible, kinds = kept.counts(len(by_number()))
     faces = 0 if fill is None else len(fill.faces) - 1
     return {
         **segments.found.counters,
         "lines": len(lines),
         "outlines": 0 if image.silhouettes is None else len(image.silhouettes.curves.kind),
         "divided_points": len(image.points) if plan.divide else 0,
-        "hidden_lines": len(lines) - int(np.count_nonzero(kept.visible())),
+        "hidden_lines": len(lines) - visible,
         **{str(row.counter): kinds[row.number] for row in counted()},
         "circles": kept.circles() if plan.step > 0.0 else 0,
         "curves_sought": solved.linework.curves_sought,

@@ -40,6 +40,7 @@ from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options, Request, View
 from hlr.scene.build import build
 from hlr.scene.scene import Scene
+from hlr.source.bounds import diagonal
 from hlr.source.model import Appearance, PartMesh, Source, Tessellation
 from hlr.source.selection import open_selected
 from hlr.visibility.plan import Plan, decide
@@ -118,8 +119,7 @@ class Session:
 
     def scene_by_size(self) -> Scene:
         """The scene for a purpose without a drawing: meshed at a two-thousandth of its size."""
-        size = float(((self.bounds[1] - self.bounds[0]) ** 2).sum() ** 0.5)
-        return self.scene_at(size / SMALL_DRAWING)[0]
+        return self.scene_at(diagonal(self.bounds) / SMALL_DRAWING)[0]
 
     def drafts(self, lines_alone: bool = False) -> list[Draft]:
         """One draft per view, of one scene, meshed finely enough for all.
@@ -133,16 +133,16 @@ class Session:
             # Sources need not tell this (`Source`).
             ask = getattr(self.source, "is_one_sphere", None) if lines_alone else None
             sphere = ask is not None and bool(ask())
-            perspective = any(camera.eye is not None for camera in self.cameras)
+            perspective = any([camera.eye is not None for camera in self.cameras])
         coarser = 1.0 if planner.on("fine mesh", Facts(sphere=sphere, perspective=perspective)) else SPHERE_MESH
         for _ in range(MOST_MESHINGS):
-            finest = min(at.tolerances.deflection for at in self.placements)
+            finest = self._finest()
             self.scene, meshed = self.scene_at(finest, self.placements[0].tolerances.angle, planner, coarser)
             note_meshing(planner, self.scene)
             pairs = zip(self.cameras, self.placements, strict=True)
             drafts = [self._draft(camera, placement, planner.fork()) for camera, placement in pairs]
             self._fit(drafts)
-            if min(at.tolerances.deflection for at in self.placements) > REMESH * finest:
+            if self._finest() > REMESH * finest:
                 break
         for draft in drafts:
             note_rescue(draft.planner, self.scene, meshed)
@@ -152,11 +152,17 @@ class Session:
         self.remarks = [] if self.options.see_through else hiding(self.scene, self.looks)
         return drafts
 
+    def _finest(self) -> float:
+        """The deflection that the finest of the views needs, model units."""
+        return min([placement.tolerances.deflection for placement in self.placements])
+
     def _draft(self, camera: Camera, placement: Placement, planner: Planner) -> Draft:
         return Draft(image_of(self.scene, camera, placement), by_view(self.options, camera, planner), planner)
 
     def _fit(self, drafts: Sequence[Draft]) -> None:
         """Give drafts their final scales. Outlines have to fit: they reach beyond the mesh, within the accuracy."""
+        if all([placement.settled for placement in self.placements]):
+            return
         surfaces = self.scene.true_surfaces
         bends = surfaces is not None and bool(surfaces.curved.any() or (np.diff(self.scene.chains.offsets) > 1).any())
         traced, fitted = [], []

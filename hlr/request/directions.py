@@ -47,7 +47,7 @@ def check_directions(views: Sequence[View], up: Vector | None, perspective: Pers
     """
     if perspective is None or perspective.eye is None:
         for view in views:
-            _, direction, named_up = directed(view)
+            direction, named_up = _aimed(view)
             axes(direction, up or named_up)
         return
     if len(views) > 1:
@@ -82,15 +82,20 @@ def normalized(v: Sequence[float], what: str) -> Vector:
 
 def directed(view: View) -> tuple[str, Vector, Vector | None]:
     """A view's name, its unit direction toward the viewer, and the up direction that a named view has; world axes."""
+    direction, up = _aimed(view)
+    return view if isinstance(view, str) else ",".join([f"{float(c):g}" for c in view]), direction, up
+
+
+def _aimed(view: View) -> tuple[Vector, Vector | None]:
+    """The same without the name."""
     if isinstance(view, str):
         if view not in NAMED:
             raise ViewError(f"no view is called '{view}': use {', '.join(NAMED)}, or a direction such as 1,-1,1")
         direction, up = NAMED[view]
-        return view, normalized(direction, "the view direction"), up
+        return normalized(direction, "the view direction"), up
     if isinstance(view, bytes | bytearray):
         raise ViewError("a view in bytes: give its name as text, or a direction such as (1, -1, 1)")
-    name = ",".join(f"{float(c):g}" for c in view)
-    return name, normalized(tuple(view), "the view direction"), None
+    return normalized(tuple(view), "the view direction"), None
 
 
 def axes(direction: Vector, up_hint: Vector | None) -> tuple[Vector, Vector]:
@@ -109,7 +114,7 @@ def axes(direction: Vector, up_hint: Vector | None) -> tuple[Vector, Vector]:
 
 def pictorial(direction: Vector) -> bool:
     """Whether a parallel view along this unit vector (world axes) shows more than two of the model's dimensions."""
-    return sum(abs(c) > SLANT for c in direction) > 1
+    return sum([abs(c) > SLANT for c in direction]) > 1
 
 
 def apart(eye: Vector, target: Vector, radius: float) -> None:

@@ -137,15 +137,6 @@ def everything_on() -> Iterator[None]:
         _FORCED.reset(before)
 
 
-class _Made:
-    """A decision to whose cost stages still add."""
-
-    __slots__ = ("counts", "on", "reason", "seconds")
-
-    def __init__(self, on: bool, reason: str, seconds: float | None, counts: Mapping[str, int]) -> None:
-        self.on, self.reason, self.seconds, self.counts = on, reason, seconds, counts
-
-
 class _Deciding:
     """A block of `Planner.deciding`. A class, because a generator takes four times as long, and there are many."""
 
@@ -172,7 +163,9 @@ class Planner:
         self._rows = {effect.name: effect for effect in table}
         self._options = options
         self._force = _FORCED.get() if force is None else force
-        self._decided: dict[str, _Made] = {}
+        self._answers: dict[str, tuple[bool, str]] = {}
+        self._seconds: dict[str, float] = {}
+        self._counts: dict[str, Mapping[str, int]] = {}
         self.took = 0.0
 
     @property
@@ -181,30 +174,29 @@ class Planner:
         return self._force
 
     def on(self, name: str, facts: Facts = _NOTHING) -> bool:
-        """Decide whether the effect is needed, by these facts; the last decision counts."""
+        """Decide whether the effect is needed, by these facts; the last decision counts.
+
+        What the effect has cost so far stays: a model may be meshed twice.
+        """
         effect = self._rows[name]
-        on, reason = effect.needed(facts, self._options)
-        if not on and self._force and effect.origin == SCENE:
-            on, reason = True, f"forced; else off: {reason}"
-        made = self._decided.get(name)
-        if made is None:
-            self._decided[name] = _Made(on, reason, None, {})
-        else:
-            # What it has cost so far stays: a model may be meshed twice.
-            made.on, made.reason = on, reason
-        return on
+        answer = effect.needed(facts, self._options)
+        if self._force and not answer[0] and effect.origin == SCENE:
+            answer = True, f"forced; else off: {answer[1]}"
+        self._answers[name] = answer
+        return answer[0]
 
     def deciding(self) -> _Deciding:
         """A block whose time is that of finding out what to decide."""
         return _Deciding(self)
 
     def spent(self, name: str, seconds: float | None = None, **counts: int) -> None:
-        """Add to the cost of an effect that has been decided."""
-        known = self._decided[name]
+        """Add to the cost of an effect."""
         if seconds is not None:
-            known.seconds = (known.seconds or 0.0) + seconds
-        if counts:
-            known.counts = {**known.counts, **{key: known.counts.get(key, 0) + value for key, value in counts.items()}}
+            self._seconds[name] = self._seconds.get(name, 0.0) + seconds
+        before = self._counts.get(name)
+        if before:
+            counts = {**before, **{key: before.get(key, 0) + value for key, value in counts.items()}}
+        self._counts[name] = counts
 
     @contextmanager
     def timed(self, name: str) -> Iterator[None]:
@@ -217,34 +209,29 @@ class Planner:
 
     def revised(self, name: str, on: bool, reason: str) -> None:
         """Change a decision that proved wrong while the work was done."""
-        made = self._decided[name]
-        made.on, made.reason = on, reason
+        self._answers[name] = on, reason
 
     def fork(self) -> Planner:
         """A planner for one view, which begins with the decisions made for all views."""
         other = Planner((), self._options, self._force)
-        other._rows = self._rows
-        other._decided = {
-            name: _Made(made.on, made.reason, made.seconds, made.counts) for name, made in self._decided.items()
-        }
-        other.took = self.took
+        other._rows, other.took = self._rows, self.took
+        other._answers, other._seconds, other._counts = self._answers.copy(), self._seconds.copy(), self._counts.copy()
         return other
 
     def cost(self, name: str) -> Mapping[str, int]:
-        """The cost of an effect so far, by counter; empty where it was not decided."""
-        made = self._decided.get(name)
-        return {} if made is None else made.counts
+        """The cost of an effect so far, by counter; empty where nothing was counted."""
+        return self._counts.get(name, {})
 
     def decisions(self, counters: Mapping[str, int] | None = None) -> tuple[Decision, ...]:
         """All that was decided, in the order of the table; counters: of the finished drawing."""
         found = counters or {}
         out = []
         for name, effect in self._rows.items():
-            made = self._decided.get(name)
-            if made is not None:
-                counts = {c: int(found.get(c, made.counts.get(c, 0))) for c in effect.counters}
-                seconds = made.seconds if made.on else None
-                out.append(Decision(name, made.on, effect.origin, made.reason, seconds, counts))
+            if name in self._answers:
+                on, reason = self._answers[name]
+                counted = self.cost(name)
+                counts = {c: int(found.get(c, counted.get(c, 0))) for c in effect.counters}
+                out.append(Decision(name, on, effect.origin, reason, self._seconds.get(name) if on else None, counts))
         out.append(Decision(PLAN, True, ASKED, "to know all this", self.took))
         return tuple(out)
 

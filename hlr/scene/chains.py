@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+
 import numpy as np
 import numpy.typing as npt
 
@@ -49,6 +51,8 @@ def crease_chains(points: Floats, edges: Ints, kind: npt.NDArray[np.uint8], part
 
 def merge_chains(a: Chains, b: Chains) -> Chains:
     """All chains, sorted by part; within a part those of `a` first."""
+    if not len(a.part) or not len(b.part) or a.part[-1] <= b.part[0]:
+        return _one_after_another(a, b)
     count = np.concatenate([np.diff(a.offsets), np.diff(b.offsets)])
     part = np.concatenate([a.part, b.part])
     order = np.argsort(part, kind="stable")
@@ -68,3 +72,10 @@ def merge_chains(a: Chains, b: Chains) -> Chains:
         straight=np.concatenate([a.straight, b.straight])[order],
         curve=np.concatenate([a.curve, b.curve])[order],
     )
+
+
+def _one_after_another(a: Chains, b: Chains) -> Chains:
+    """The chains of `a`, then those of `b`."""
+    columns = {each.name: (getattr(a, each.name), getattr(b, each.name)) for each in fields(Chains)}
+    columns["offsets"] = a.offsets, b.offsets[1:] + a.offsets[-1]
+    return Chains(**{name: np.concatenate(both) for name, both in columns.items()})

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from hlr.common.types import Floats
@@ -18,11 +20,18 @@ def check_bounds(name: str, bounds: Floats) -> Floats:
         SourceError: a coordinate is beyond LARGEST or is no number; or no side reaches SMALLEST, and not all are zero.
     """
     low, high = bounds.tolist()
-    if not all(abs(c) < LARGEST_COORDINATE for c in (*low, *high)):  # also where one is NaN
+    if not all([abs(c) < LARGEST_COORDINATE for c in (*low, *high)]):  # also where one is NaN
         raise SourceError(f"{name} has no finite size, or coordinates beyond {LARGEST_COORDINATE:g}: repair the model.")
-    if 0.0 < (size := max(b - a for a, b in zip(low, high, strict=True))) < SMALLEST_SIZE:
+    if 0.0 < (size := max([b - a for a, b in zip(low, high, strict=True)])) < SMALLEST_SIZE:
         raise SourceError(f"{name} is only {size:.3g} large, where {SMALLEST_SIZE:g} is the least: scale the model up.")
     return bounds
+
+
+def diagonal(bounds: Floats) -> float:
+    """Length of the diagonal of a box (2, 3)."""
+    (a, b, c), (d, e, f) = bounds.tolist()
+    x, y, z = d - a, e - b, f - c
+    return math.sqrt(x * x + y * y + z * z)
 
 
 ROWS_AT_ONCE = 64

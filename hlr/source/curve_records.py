@@ -51,6 +51,8 @@ def pack_curves(records: Sequence[Record]) -> Curves:
 
 def concatenate_curves(first: Curves, second: Curves) -> Curves:
     """The records of the first set, then those of the second."""
+    if not len(first.kind):
+        return second
     return Curves(
         kind=np.concatenate([first.kind, second.kind]),
         range=np.concatenate([first.range, second.range]),

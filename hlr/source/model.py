@@ -249,5 +249,9 @@ def missing_of_source(thing: object) -> Iterator[str]:
     # A proxy forwards the attributes that it does not have itself.
     forwards = hasattr(type(thing), "__getattr__")
     for name in MEMBERS:
-        if not any(name in place for place in places) and not (forwards and hasattr(thing, name)):
-            yield name
+        for place in places:
+            if name in place:
+                break
+        else:
+            if not (forwards and hasattr(thing, name)):
+                yield name

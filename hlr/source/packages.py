@@ -9,5 +9,8 @@ _KNOWN = {"cadquery", "build123d", "OCP", "trimesh", "manifold3d"}
 
 def package_of(thing: Any) -> str:
     """The top-level package of the object's class or a base class; a package that hlr knows where there is one."""
-    roots = [cls.__module__.split(".")[0] for cls in type(thing).__mro__]
-    return next((root for root in roots if root in _KNOWN), roots[0])
+    roots = [cls.__module__.partition(".")[0] for cls in type(thing).__mro__]
+    for root in roots:
+        if root in _KNOWN:
+            return root
+    return roots[0]

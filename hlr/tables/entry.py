@@ -6,6 +6,7 @@ from collections import UserDict
 from collections.abc import Callable, Iterable
 from functools import wraps
 from importlib import import_module
+from types import ModuleType
 from typing import Any, TypeVar
 
 Row = TypeVar("Row")
@@ -41,10 +42,17 @@ class Table(UserDict[str, Row]):
         return found
 
 
+_IMPORTED: dict[str, ModuleType] = {}
+"""Modules that were imported to the end: asking the import system again takes ten times as long."""
+
+
 def called(entry: str) -> Callable[..., Any]:
     """The function that "module:function" names."""
-    module, _, name = entry.partition(":")
-    found: Callable[..., Any] = getattr(import_module(module), name)
+    path, _, name = entry.partition(":")
+    module = _IMPORTED.get(path)
+    if module is None:
+        module = _IMPORTED[path] = import_module(path)
+    found: Callable[..., Any] = getattr(module, name)
     return found
 
 

@@ -15,8 +15,8 @@ from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
 from hlr.tables.line_classes import by_number, counted, goes_on
 
-DRAWN = 1
-OUTLINE = 2
+DRAWN, OUTLINE = 1, 2
+"""Roles of an edge: drawn; drawn where it is a contour of the mesh."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,11 +52,6 @@ MOST_STEP = 45.0
 def decide(image: Image, options: Options, planner: Planner) -> Plan:
     """Instructions for one view of a scene; planner: knows what was decided before."""
     tolerances = image.placement.tolerances
-    # roles[edge_curved, edge_kind]: where a curved surface goes on across an edge, it may fold over there.
-    roles = np.zeros((2, 256), np.uint8)
-    roles[1, goes_on()] = OUTLINE
-    drawn_kind = [row.drawn(options) for row in by_number()]
-    roles[:, : len(drawn_kind)] |= DRAWN * np.array(drawn_kind, np.uint8)
     visibility_input = _kernel.VisibilityInput(
         image.groups,
         image.triangle_group,
@@ -64,8 +59,8 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
         image.edge_curved,
         image.edge_kind,
         None if image.silhouettes is None else image.silhouettes.hidden,
-        roles,
-        drawn_kind,
+        goes_on(),
+        [row.drawn(options) for row in by_number()],
         image.camera.scaled(1.0),
         (tolerances.contact, tolerances.contact_planar, MESH_CONTACT),
         tolerances.rounding,

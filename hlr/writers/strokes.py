@@ -130,11 +130,16 @@ def _sets(drawing: Drawing) -> list[tuple[PenSet, _kernel.Lines]]:
     return list(zip(sets, divided(drawing.lines, own, len(sets)), strict=True))
 
 
-def _inked(drawing: Drawing, pens: PenSet, lines: _kernel.Lines, places: int, cubic: bool) -> list[Inked]:
+def layers_of(lines: _kernel.Lines, places: int, accuracy: float, cubic: bool) -> list[_kernel.Layer]:
+    """Lines in layers, without pens; places, cubic: as of `Strokes` and `strokes`; accuracy: millimetres."""
     try:
-        layers = lines.layers(list(in_drawing_order()), places, drawing.accuracy.used, cubic)
+        return lines.layers(in_drawing_order(), places, accuracy, cubic)
     except ValueError:
         raise WriteError(number.NOT_FINITE) from None
+
+
+def _inked(drawing: Drawing, pens: PenSet, lines: _kernel.Lines, places: int, cubic: bool) -> list[Inked]:
+    layers = layers_of(lines, places, drawing.accuracy.used, cubic)
     seen, rows = tuple(layer for layer in layers if layer.visible), by_number()
     inked = []
     for layer in layers:

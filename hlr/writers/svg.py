@@ -39,7 +39,7 @@ _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 def svg(drawing: Drawing) -> bytes:
     """The drawing as an SVG file. Raises WriteError where a point is not finite."""
     page = strokes(drawing)
-    width, height = (number(side, page.side_places) for side in (page.width, page.height))
+    width, height = number(page.width, page.side_places), number(page.height, page.side_places)
     corner = f"{number(page.left, page.places)} {number(-page.bottom - page.height, page.places)}"
     background = drawing.style.background
     root = {"stroke": "#000000", "stroke-linecap": "round"}
@@ -114,12 +114,14 @@ def _ink(pen: Pen) -> Attributes:
 
 def _changed(own: Attributes, around: Attributes) -> str:
     """The attributes that differ from those of the group around."""
+    if own == around:
+        return ""
     changed = {name: value for name, value in own.items() if around.get(name) != value}
     return f" {_attributes(changed)}" if changed else ""
 
 
 def _attributes(values: Attributes) -> str:
-    return " ".join(f'{name}="{value}"' for name, value in values.items())
+    return " ".join([f'{name}="{value}"' for name, value in values.items()])
 
 
 def _layer(name: str | None, label: str) -> str:
@@ -135,13 +137,13 @@ def title(drawing: Drawing) -> str:
 
 def description(drawing: Drawing) -> str:
     """What a reader who does not see the drawing is told."""
-    seen = held(drawing.lines).visible()
+    visible, _ = held(drawing.lines).counts(0)
     cut = "" if drawing.section is None else ", cut by a plane"
     cut += " that steps" if drawing.section is not None and drawing.section.corners else ""
-    visible = int(seen.sum())
+    hidden = len(drawing.lines) - visible
     return (
         f"Hidden-line drawing of {drawing.source}{cut}: view {drawing.view.name}, {drawing.view.projection}, scale "
-        f"{ratio(drawing.scale)}, {counted(visible, 'visible line')} and {counted(len(seen) - visible, 'hidden line')}."
+        f"{ratio(drawing.scale)}, {counted(visible, 'visible line')} and {counted(hidden, 'hidden line')}."
     )
 
 
@@ -151,8 +153,8 @@ def _metadata(drawing: Drawing) -> str:
     fields = {**(_camera(drawing) if drawing.sheet is None else {}), **accuracies(drawing)}
     attributes = " ".join(
         [
-            *(f"{key}={_quoted(value)}" for key, value in named.items()),
-            *(f'{key}="{value}"' for key, value in fields.items()),
+            *[f"{key}={_quoted(value)}" for key, value in named.items()],
+            *[f'{key}="{value}"' for key, value in fields.items()],
         ]
     )
     views = "" if drawing.sheet is None else "".join(map(_view, drawing.sheet.views))
@@ -161,7 +163,7 @@ def _metadata(drawing: Drawing) -> str:
         own = part_color(part)
         color = "" if own is None else f' color="{own}"'
         parts.append(f'<part index="{index}" name={_quoted(part.name)}{color}/>\n')
-    errors = " ".join(f'{key}="{value}"' for key, value in reached(drawing).items())
+    errors = _attributes(reached(drawing))
     measured = f"<reached {errors}/>\n" if errors else ""
     inside = measured + views + "".join(parts)
     return f'<metadata>\n<drawing xmlns="urn:hlr:drawing:1" {attributes}>\n{inside}</drawing>\n</metadata>\n'
@@ -215,7 +217,7 @@ def reached(drawing: Drawing) -> dict[str, str]:
 
 
 def _vector(values: tuple[float, ...]) -> str:
-    return " ".join(f"{value + 0.0:.9g}" for value in values)
+    return " ".join([f"{value + 0.0:.9g}" for value in values])
 
 
 def _clean(text: str) -> str:

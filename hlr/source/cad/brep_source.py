@@ -13,7 +13,7 @@ from hlr.common.types import Floats, Ints, Progress
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError
 from hlr.request.options import Vector
-from hlr.source.bounds import check_bounds
+from hlr.source.bounds import check_bounds, diagonal
 from hlr.source.cad.occt_collections import new_collection
 from hlr.source.cad.parts import Part
 from hlr.source.cad.prototypes import Prototypes
@@ -196,10 +196,7 @@ class BrepSource:
     @property
     def _part_tessellator(self) -> Tessellator:
         if self._tessellator is None:
-            low, high = self.bounds()
-            self._tessellator = Tessellator(
-                self._prototypes, self._used_prototypes, float(np.sqrt(((high - low) ** 2).sum()))
-            )
+            self._tessellator = Tessellator(self._prototypes, self._used_prototypes, diagonal(self.bounds()))
         return self._tessellator
 
     def is_one_sphere(self) -> bool:
@@ -259,8 +256,10 @@ class BrepSource:
 
 def _precisions(tables: _kernel.PartTables) -> Floats:
     """(p,) coordinate precision of parts that a file stores as triangles alone; 0 for all others."""
-    out = np.zeros(len(tables))
-    for i in np.flatnonzero(~tables.brep).tolist():
+    out, brep = np.zeros(len(tables)), tables.brep
+    if brep.all():
+        return out
+    for i in np.flatnonzero(~brep).tolist():
         a, b = tables.point_start[i : i + 2]
         out[i] = coordinate_precision(tables.points[a:b])
     return out

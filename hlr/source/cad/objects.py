@@ -147,7 +147,7 @@ def _wrapped(thing: Any) -> Any:
 
 
 def _is_instance_of(thing: Any, *names: str) -> bool:
-    return any(cls.__name__ in names for cls in type(thing).__mro__)
+    return any([cls.__name__ in names for cls in type(thing).__mro__])
 
 
 def _name_or_empty(name: str | None) -> str:

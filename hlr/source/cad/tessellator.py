@@ -53,6 +53,8 @@ class Tessellator:
 
     def _rescue_failed(self, meshed: _kernel.BrepMesh, deflection: float, angle: float) -> MeshingFaults:
         """Mesh the faces that the kernel could not: with OpenCASCADE, and else what their crossing loops enclose."""
+        if meshed.is_sound():
+            return MeshingFaults()
         faults = MeshingFaults(turned=[number for number, _ in meshed.turned()])
         given_up = [number for number, off in meshed.unfinished() if math.isinf(off)]
         failed = {number for number, _ in meshed.faults()}.difference(given_up)

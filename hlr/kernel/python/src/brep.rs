@@ -237,6 +237,18 @@ impl Drop for BrepMesh {
 
 #[pymethods]
 impl BrepMesh {
+    /// Whether each face has a mesh with which nothing is wrong: none is named by `faults`, `turned`, `torn` and
+    /// `unfinished`.
+    fn is_sound(&self) -> bool {
+        let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
+        let sound = |face: &MeshedFace| {
+            let mesh = &face.mesh;
+            let off = [mesh.torn, mesh.unfinished].iter().any(|&far| far > 0.0);
+            face.fault.is_none() && mesh.turned.is_empty() && !off
+        };
+        meshed.faces.iter().all(sound)
+    }
+
     /// Numbers of the faces without a mesh, each with the reason.
     fn faults(&self) -> Vec<(usize, String)> {
         let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);

@@ -139,6 +139,18 @@ impl Lines {
         self.0.0.iter().map(|l| l.visible).collect::<Vec<_>>().into_pyarray(py)
     }
 
+    /// How many lines are visible, and how many there are of each of the first `classes` classes.
+    fn counts(&self, classes: usize) -> (usize, Vec<usize>) {
+        let (mut visible, mut of_class) = (0, vec![0; classes]);
+        for line in &self.0.0 {
+            visible += usize::from(line.visible);
+            if let Some(count) = of_class.get_mut(usize::from(line.kind.0)) {
+                *count += 1;
+            }
+        }
+        (visible, of_class)
+    }
+
     /// How many creases and borders without an edge lie on a curve: those of meshes, on circles.
     fn circles(&self) -> usize {
         let bare = |l: &&Line| l.edge < 0 && matches!(l.kind, Kind::SHARP | Kind::BOUNDARY);

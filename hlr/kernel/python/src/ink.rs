@@ -51,7 +51,7 @@ impl Ink {
         py: Python<'py>,
     ) -> PyResult<(Option<Spacing<'py>>, Option<Spacing<'py>>, Option<Spacing<'py>>)> {
         let found = run(py, self.size(), |_| spacings(&self.ink, self.reaches))?;
-        Ok(found.map(|s| s.map(|s| (s.bins.into_pyarray(py), s.ink, s.smallest))).into())
+        Ok(found.map(|s| s.map(|s| (s.shares().into_pyarray(py), s.smallest, s.ink))).into())
     }
 
     /// (n,) the fate of each line: 0 drawn, 1 smaller than the pen, 2 between others.

@@ -92,6 +92,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(intersections::intersection_curves, m)?)?;
     m.add_class::<silhouette::Outlines>()?;
     m.add_function(wrap_pyfunction!(silhouette::silhouettes, m)?)?;
+    m.add_function(wrap_pyfunction!(silhouette::traced_faces, m)?)?;
     m.add_class::<outlined::Outlined>()?;
     m.add_function(wrap_pyfunction!(outlined::outlined, m)?)?;
     m.add_function(wrap_pyfunction!(meshfile::read_mesh, m)?)?;

@@ -4,7 +4,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
-use super::arrays::{expect_below, expect_len, flat as slice};
+use super::arrays::{expect_ascending, expect_below, expect_len, expect_slice_below, flat as slice};
 use super::camera::Camera;
 use super::curve_columns::CurveColumns;
 use super::mesh_input::Mesh;
@@ -12,29 +12,53 @@ use super::threads::run;
 use super::true_surfaces::TrueSurfaces;
 use super::view::{Flat, Rows, arrays, flat, rows};
 use hlr_linework::silhouette::grazing::Grazing;
+use hlr_linework::silhouette::sought::{Walks, traced_faces as sought};
 use hlr_linework::silhouette::trace::{Silhouette, Traced, trace};
 use hlr_linework::silhouette::{FaceRecord, Model};
+
+/// (f,) faces on which outlines are sought.
+#[pyfunction]
+pub fn traced_faces<'py>(
+    py: Python<'py>,
+    mesh: &Mesh,
+    face: PyReadonlyArray1<'py, i32>,
+    kind: PyReadonlyArray1<'py, u8>,
+    tangent: PyReadonlyArray1<'py, bool>,
+    curved: PyReadonlyArray1<'py, bool>,
+) -> PyResult<Bound<'py, PyArray1<bool>>> {
+    let reading = mesh.reading(py)?;
+    let all = reading.slices()?;
+    let (face, curved) = (slice(&face, "face")?, slice(&curved, "curved")?);
+    let (kind, tangent) = (slice(&kind, "kind")?, slice(&tangent, "tangent")?);
+    expect_len("face", face.len(), all.triangles.len())?;
+    expect_slice_below("face", face, curved.len())?;
+    expect_len("kind", kind.len(), all.edges.len())?;
+    let of_edge = |edge: usize| tangent.get(usize::from(kind[edge])) == Some(&true);
+    Ok(sought(curved, face, all.offsets, all.incident, of_edge).into_pyarray(py))
+}
 
 /// Outlines: the curves on true surfaces along which they are seen edge-on. And borders of faces that are nearly
 /// edge-on.
 #[pyfunction]
-#[allow(clippy::too_many_arguments)] // two arrays, and what they are about
+#[allow(clippy::too_many_arguments)] // classes of edges, walks, and what they are about
 pub fn silhouettes<'py>(
     py: Python<'py>,
     mesh: &Mesh,
     on: &TrueSurfaces,
-    smooth: PyReadonlyArray1<'py, bool>,
-    source: PyReadonlyArray1<'py, i32>,
+    kind: PyReadonlyArray1<'py, u8>,
+    goes_on: PyReadonlyArray1<'py, bool>,
+    walks: [PyReadonlyArray1<'py, i32>; 3],
     camera: &Camera,
     chord: f64,
 ) -> PyResult<Outlines> {
     let (reading, places) = (mesh.reading(py)?, on.reading(py)?);
     let all = reading.slices()?;
     let (triangle_face, corner, uv) = places.slices()?;
-    let (smooth, source) = (slice(&smooth, "smooth")?, slice(&source, "source")?);
+    let (kind, goes_on) = (slice(&kind, "kind")?, slice(&goes_on, "goes_on")?);
     expect_len("triangle_face", triangle_face.len(), all.triangles.len())?;
-    expect_len("smooth", smooth.len(), all.edges.len())?;
-    expect_len("source", source.len(), all.edges.len())?;
+    expect_len("kind", kind.len(), all.edges.len())?;
+    let smooth: Vec<bool> = kind.iter().map(|&kind| goes_on.get(usize::from(kind)) == Some(&true)).collect();
+    let source = walks_of(&walks, all.edges.len())?.of_edges(all.edges.len());
     if chord.is_nan() || chord <= 0.0 {
         return Err(PyValueError::new_err("chord must be positive"));
     }
@@ -49,8 +73,8 @@ pub fn silhouettes<'py>(
         edges: all.edges,
         offsets: all.offsets,
         incident: all.incident,
-        smooth,
-        source,
+        smooth: &smooth,
+        source: &source,
         corner,
         uv,
         faces,
@@ -66,6 +90,17 @@ pub fn silhouettes<'py>(
         grazing,
         traced,
     })
+}
+
+/// offsets, edges and index of walks over mesh edges, of which there are `count`.
+fn walks_of<'a>(columns: &'a [PyReadonlyArray1<'_, i32>; 3], count: usize) -> PyResult<Walks<'a>> {
+    let [offsets, edges, index] = columns;
+    let (offsets, edges, index) = (slice(offsets, "offsets")?, slice(edges, "edges")?, slice(index, "index")?);
+    expect_len("offsets", offsets.len(), index.len() + 1)?;
+    expect_ascending("offsets", offsets)?;
+    expect_slice_below("offsets", offsets, edges.len() + 1)?;
+    expect_slice_below("edges", edges, count)?;
+    Ok(Walks { offsets, edges, index })
 }
 
 /// A face as the kernel takes it.

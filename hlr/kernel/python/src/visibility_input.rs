@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use super::arrays::{expect_len, expect_slice_below, flat as slice, rows as table};
+use super::arrays::{expect_len, expect_slice_below, flat as slice};
 use super::camera::Camera;
 use super::groups::{Groups, not_finite};
 use super::guard::caught;
@@ -16,7 +16,7 @@ use super::view::{Flat, arrays, flat};
 use hlr_linework::lines::camera::Camera as PaperCamera;
 use hlr_mesh::groups::Groups as Columns;
 use hlr_visibility::plan::contact::{Contact, Depths, coming_near};
-use hlr_visibility::plan::roles::{Counts, Roles, counts, edge_roles, told};
+use hlr_visibility::plan::roles::{Counts, counts, edge_roles, roles, told};
 use hlr_visibility::scan::scene::Group;
 
 /// Contact depths: of curved and of planar groups, in model units; of meshes without B-rep, as a share of the scene.
@@ -57,7 +57,7 @@ arrays! { VisibilityInput {
         curved: PyReadonlyArray1<'_, bool>,
         kind: PyReadonlyArray1<'_, u8>,
         hidden: Option<PyReadonlyArray1<'_, bool>>,
-        roles: PyReadonlyArray2<'_, u8>,
+        goes_on: PyReadonlyArray1<'_, bool>,
         drawn: Vec<bool>,
         camera: &Camera,
         contact: [f64; 3],
@@ -70,9 +70,8 @@ arrays! { VisibilityInput {
             if !hidden.is_empty() {
                 expect_len("hidden", hidden.len(), curved.len())?;
             }
-            let classes = table::<u8, 256>(&roles, "roles")?;
-            let roles: &Roles = classes.try_into().map_err(|_| PyValueError::new_err("roles must be a (2, 256) array"))?;
-            let role = run(py, kind.len() / 64, |_| edge_roles(curved, kind, roles, hidden))?;
+            let of_classes = roles(&drawn, slice(&goes_on, "goes_on")?);
+            let role = run(py, kind.len() / 64, |_| edge_roles(curved, kind, &of_classes, hidden))?;
             let contact = Contact::of(&groups.0, &camera.0, depths(contact), rounding);
             let told = told(&groups.0, &contact);
             let view = View { groups: groups.0.clone(), camera: camera.0 };

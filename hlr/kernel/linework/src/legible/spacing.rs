@@ -35,6 +35,18 @@ pub struct Spacing {
     pub smallest: f64,
 }
 
+impl Spacing {
+    /// Up to the end of each bin, the share of all ink; of ink of less than a millimetre, millimetres.
+    pub fn shares(&self) -> Vec<f64> {
+        let mut nearer = 0.0;
+        let share = |bin: &f64| {
+            nearer += bin;
+            nearer / self.ink.max(1.0)
+        };
+        self.bins.iter().map(share).collect()
+    }
+}
+
 /// Of hidden lines, of visible lines, and of hidden lines beside visible ones; reaches: for each, up to which distance is
 /// looked, millimetres. None where there is too much ink to be measured.
 pub fn spacings(ink: &Ink, reaches: [f64; 3]) -> [Option<Spacing>; 3] {

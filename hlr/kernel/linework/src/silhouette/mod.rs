@@ -6,6 +6,7 @@
 //! the mesh does.
 //!
 //! ```text
+//!    `sought`   on which faces
 //! 1. `face`     f on the true surface of a face, and how the surface curves along the line of sight
 //!    `wrinkle`  removes changes of sign where the surface turns over and back within less than the tolerance
 //! 2. `contour`  mesh edges where f changes its sign: the crossing is found on the true surface; where the two faces at
@@ -34,6 +35,7 @@ pub mod outlined;
 pub mod own_lines;
 pub mod refine;
 pub mod side;
+pub mod sought;
 pub mod split;
 pub mod trace;
 pub mod wrinkle;

@@ -4,10 +4,21 @@ use hlr_mesh::groups::Groups;
 use rayon::prelude::*;
 
 use super::contact::Contact;
+use crate::scan::mesh::{DRAWN, OUTLINE};
 use crate::scan::scene::Group;
 
 /// The role of an edge by its class: beside no curved face, then beside one.
 pub type Roles = [[u8; 256]; 2];
+
+/// drawn: classes of which edges are drawn; goes_on: classes of edges across which a curved face goes on, and may fold
+/// over. Classes beyond their lengths are none of them.
+pub fn roles(drawn: &[bool], goes_on: &[bool]) -> Roles {
+    let of = |listed: &[bool], kind: usize, role: u8| if listed.get(kind) == Some(&true) { role } else { 0 };
+    let beside = |curved: bool| {
+        std::array::from_fn(|kind| of(drawn, kind, DRAWN) | if curved { of(goes_on, kind, OUTLINE) } else { 0 })
+    };
+    [beside(false), beside(true)]
+}
 
 /// The role of each edge. curved: a curved face may show its outline there; kind: the edge's class; hidden: edges that
 /// their own body hides have no role.
@@ -64,8 +75,10 @@ mod tests {
 
     #[test]
     fn edges_have_the_role_of_their_class() {
-        let mut roles = [[0; 256]; 2];
-        (roles[0][3], roles[1][3], roles[1][255]) = (1, 3, 2);
+        let mut goes_on = [false; 256];
+        (goes_on[3], goes_on[255]) = (true, true);
+        let roles = roles(&[false, true, false, true], &goes_on);
+        assert_eq!((roles[0][1], roles[1][1], roles[0][255], roles[1][0]), (1, 1, 0, 0));
         let (curved, kind) = ([false, true, true, false, true], [3, 3, 255, 255, 3]);
         assert_eq!(edge_roles(&curved, &kind, &roles, &[]), [1, 3, 2, 0, 3]);
         assert_eq!(edge_roles(&curved, &kind, &roles, &[false, true, false, false, false]), [1, 0, 2, 0, 3]);
