@@ -390,15 +390,15 @@ def silhouettes(
     on: TrueSurfaces,
     kind: Bytes,
     goes_on: Bools,
-    walks: tuple[Ints, Ints, Ints],
+    walks: Walks,
     camera: Camera,
     chord: float,
 ) -> Outlines:
     """The outlines of true surfaces.
 
     kind (e,): the class of each edge; goes_on: by class, whether the surface goes on smoothly across the edge; walks:
-    offsets, edges and index of `hlr.scene.scene.Chains`; chord: how far chords may stay off an outline. ValueError
-    where they do not fit, KeyboardInterrupt within milliseconds of Ctrl-C.
+    over the mesh's edges; chord: how far chords may stay off an outline. ValueError where they do not fit,
+    KeyboardInterrupt within milliseconds of Ctrl-C.
     """
 
 class Outlined:
@@ -406,8 +406,7 @@ class Outlined:
 
     points (n, 3), lift (n, 3): how far points are moved before visibility is decided; edges (e, 2), offsets (e + 1,),
     part, group, kind, curved, hidden and number (e,): the columns of `hlr.image.image.Image` and of its `Silhouettes`.
-    own_*: the columns of its `OwnFaces`, empty where nothing is seen nearly edge-on. outline_starts (o + 1,): where
-    each outline begins among the edges of all outlines, outline_part and outline_face (o,): its part, and its face.
+    own_*: the columns of its `OwnFaces`, empty where nothing is seen nearly edge-on.
     """
 
     points: Floats
@@ -429,9 +428,9 @@ class Outlined:
     own_face: Ints
     own_off: Ints
     own_sheet: Ints
-    outline_starts: Ints
-    outline_part: Ints
-    outline_face: Ints
+
+    def walks(self, kind: int, first: int) -> Walks:
+        """The outlines as walks of this class; first: how many edges the image had before."""
 
 def outlined(
     outlines: Outlines,
@@ -517,7 +516,16 @@ class Camera:
         """(n, 3) to the right, up, and away from the viewer, in model units, of points (n, 3)."""
 
 class Walks:
-    """Walks over mesh edges: the columns of `hlr.scene.scene.Chains`. ValueError where they do not fit."""
+    """Walks over mesh edges, sorted by part: edges of the source, creases and borders of meshes, intersection lines,
+    outlines.
+
+    offsets (w + 1,), edges (k,): walk i runs along edges[offsets[i]:offsets[i + 1]]; reversed (k,): from the second
+    to the first vertex of the edge; kind (w,): EdgeClass; part (w,). Of these -1, the default, stands for none:
+    index (w,): the edge in its part's TopExp edge map; other (w,): of an intersection line the second part; face (w,):
+    of an outline the face in its part's TopExp face map; curve (w,): of an intersection line its curve in
+    `hlr.scene.scene.IntersectionCurves`. straight (w,): two planar faces meet there at an angle, and two planes have a
+    straight line in common. ValueError where they do not fit.
+    """
 
     def __new__(
         cls,
@@ -526,11 +534,38 @@ class Walks:
         reversed: Bools,
         kind: Bytes,
         part: Ints,
-        index: Ints,
-        face: Ints,
-        other: Ints,
-        straight: Bools,
+        *,
+        index: Ints | None = None,
+        other: Ints | None = None,
+        face: Ints | None = None,
+        straight: Bools | None = None,
+        curve: Ints | None = None,
     ) -> Walks: ...
+    def __len__(self) -> int: ...
+
+    offsets: Ints
+    edges: Ints
+    reversed: Bools
+    kind: Bytes
+    part: Ints
+    index: Ints
+    other: Ints
+    face: Ints
+    straight: Bools
+    curve: Ints
+
+    def merged(self, other: Walks) -> Walks:
+        """These walks and those of another, sorted by part; within a part these come first."""
+
+    def moved(self, target: Ints, swapped: Bools) -> Walks:
+        """The walks after edges got other numbers.
+
+        target (e,): of each edge, -1 where it is gone; swapped (e,): its first vertex is now its second. A walk that
+        lost an edge in between goes on as another. ValueError where they do not fit.
+        """
+
+    def bent(self) -> int:
+        """How many run along edges of the source that are not known to be straight."""
 
 class Chains:
     """Walks over mesh edges that become lines: those of the source, then contours of the mesh.
@@ -1032,7 +1067,7 @@ class MeshScene:
     edge_part, edge_group, edge_curved (e,) of the edges with triangles; edge_kind (e + l,): EdgeClass, 255 for none
     group_part (g,); welded (g,): a mesh without B-rep with more than two triangles at an edge; folded (g,): not surely
     one convex body
-    walk_*: as in `hlr.scene.scene.Chains`, of the source's edges; face_*, corner: as in `TrueSurfaces`
+    face_*, corner: as in `TrueSurfaces`
     reports: of each part the border edges, edges of more than two triangles, edges between faces of opposite
     orientation, triangles without area, groups that are not closed, groups turned, triangles, and edges of the source
     """
@@ -1051,18 +1086,14 @@ class MeshScene:
     group_part: Ints
     welded: Bools
     folded: Bools
-    walk_offsets: Ints
-    walk_edges: Ints
-    walk_reversed: Bools
-    walk_kind: Bytes
-    walk_part: Ints
-    walk_index: Ints
-    walk_straight: Bools
     corner: Ints
     face_place: Floats
     face_inward: Bools
     face_curved: Bools
     reports: list[list[int]]
+    def walks(self) -> Walks:
+        """Along the edges of the source."""
+
     def groups(self) -> Groups:
         """Properties of its groups."""
 

@@ -20,7 +20,6 @@ from hlr.image.image import Image, OwnFaces, Silhouettes
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Vector
 from hlr.scene.chains import edge_keys
-from hlr.scene.scene import Chains
 from hlr.tables.line_classes import INTERIOR
 
 
@@ -196,7 +195,7 @@ def _cut(image: Image, height: Floats) -> Image:
         edge_kind=moved(image.edge_kind, INTERIOR),
         edge_curved=moved(image.edge_curved, 0),
         groups=image.groups.opened(open_now),
-        chains=_moved_chains(image.chains, target, swapped),
+        walks=image.walks.moved(target, swapped),
     )
 
 
@@ -282,26 +281,3 @@ def _cut_triangles(
     first, second = np.stack([p, q, x], axis=1), np.stack([p, x, y], axis=1)
     triangles = np.ascontiguousarray(np.concatenate([tri[whole], tips, first, second]), np.int32)
     return triangles, np.concatenate([whole, one, two, two])
-
-
-def _moved_chains(chains: Chains, target: Ints, swapped: np.ndarray) -> Chains:
-    edge = target[chains.edges]
-    kept = np.flatnonzero(edge >= 0)
-    owner = np.repeat(np.arange(len(chains.kind)), np.diff(chains.offsets))[kept]
-    # A chain that lost an edge in between continues as a new chain.
-    fresh = np.ones(len(kept), bool)
-    fresh[1:] = (np.diff(kept) > 1) | (np.diff(owner) > 0)
-    head = np.flatnonzero(fresh)
-    whole = owner[head]
-    return Chains(
-        offsets=np.append(head, len(kept)).astype(np.int32),
-        edges=edge[kept],
-        reversed=(chains.reversed ^ swapped[chains.edges])[kept],
-        kind=chains.kind[whole],
-        part=chains.part[whole],
-        index=chains.index[whole],
-        other=chains.other[whole],
-        face=chains.face[whole],
-        straight=chains.straight[whole],
-        curve=chains.curve[whole],
-    )

@@ -30,8 +30,7 @@ from hlr.common.types import Ints
 from hlr.image.image import Image, OwnFaces, Silhouettes
 from hlr.request.accuracy import OUTLINE_CHORD, OUTLINE_LIFT, OUTLINE_SPARE, OWN_LIFT
 from hlr.request.effect import Facts, Planner
-from hlr.scene.chains import merge_chains
-from hlr.scene.scene import Chains, TrueSurfaces
+from hlr.scene.scene import TrueSurfaces
 from hlr.source.model import Curves
 from hlr.tables.line_classes import INTERIOR, LINE_CLASSES, EdgeClass, goes_on, where
 
@@ -50,7 +49,7 @@ def outlined(image: Image, planner: Planner) -> Image:
         return image
     with planner.timed("outlines"):
         found = _with_outlines(image, surfaces)
-    planner.spent("outlines", outlines=len(found.chains.kind) - len(image.chains.kind))
+    planner.spent("outlines", outlines=len(found.walks) - len(image.walks))
     return found
 
 
@@ -101,9 +100,9 @@ def _with_outlines(image: Image, surfaces: TrueSurfaces) -> Image:
             own=own,
             number=shown.number,
             curves=Curves(found.curve_kind, found.curve_range, found.curve_offsets, found.curve_values),
-            source=np.where(source >= 0, image.chains.index[source], -1).astype(np.int32),
+            source=np.where(source >= 0, image.walks.index[source], -1).astype(np.int32),
         ),
-        chains=merge_chains(image.chains, _walks(shown, len(image.edges))),
+        walks=image.walks.merged(shown.walks(EdgeClass.OUTLINE, len(image.edges))),
     )
 
 
@@ -118,29 +117,9 @@ def _traced(
 
     mesh: of the image; face (t,): numbered through all parts; chord: chord error, model units
     """
-    chains, kind = image.chains, image.edge_kind
+    kind = image.edge_kind
     on = surfaces.of(_kernel.traced_faces(mesh, face, kind, _tangent_borders(), surfaces.curved), face)
-    walks = chains.offsets, chains.edges, chains.index
-    return on, _kernel.silhouettes(mesh, on, kind, goes_on(), walks, image.camera.scaled(1.0), chord)
-
-
-def _walks(shown: _kernel.Outlined, edges: int) -> Chains:
-    """The outlines as chains; their edges follow the `edges` of the image."""
-    starts = shown.outline_starts
-    count, total = len(shown.outline_part), int(starts[-1])
-    none = np.full(count, -1, np.int32)
-    return Chains(
-        offsets=starts,
-        edges=np.arange(edges, edges + total, dtype=np.int32),
-        reversed=np.zeros(total, bool),
-        kind=np.full(count, EdgeClass.OUTLINE, np.uint8),
-        part=shown.outline_part,
-        index=none,
-        other=none,
-        face=shown.outline_face,
-        straight=np.zeros(count, bool),
-        curve=none,
-    )
+    return on, _kernel.silhouettes(mesh, on, kind, goes_on(), image.walks, image.camera.scaled(1.0), chord)
 
 
 @LINE_CLASSES.derived

@@ -59,7 +59,7 @@ def guides(image: Image, plan: Plan, chains: _kernel.Chains, lines: Ints, edge_c
     met = image.intersections
     if met is not None:
         of_edge = np.full(len(image.edges), -1, np.int32)
-        of_edge[image.chains.edges] = np.repeat(image.chains.curve, np.diff(image.chains.offsets))
+        of_edge[image.walks.edges] = np.repeat(image.walks.curve, np.diff(image.walks.offsets))
         which = of_edge[chains.first]
         number = np.where(which >= 0, which + len(own.kind), number).astype(np.int32)
         own = concatenate_curves(own, met.curves)

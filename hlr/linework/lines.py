@@ -82,21 +82,9 @@ def draw_lines(
 
 
 def _chains(image: Image, plan: Plan, segments: Segments) -> _kernel.Chains:
-    """Source edges, then contours of the mesh among the segments' edges."""
-    chains = image.chains
-    walks = _kernel.Walks(
-        chains.offsets,
-        chains.edges,
-        chains.reversed,
-        chains.kind,
-        chains.part,
-        chains.index,
-        chains.face,
-        chains.other,
-        chains.straight,
-    )
+    """Walks whose class is drawn, then contours of the mesh among the segments' edges."""
     return _kernel.Chains(
-        walks,
+        image.walks,
         plan.visibility_input,
         segments.mesh,
         image.triangle_part,

@@ -13,14 +13,14 @@ from hlr.errors import SourceError
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
-from hlr.scene.chains import crease_chains, merge_chains
+from hlr.scene.chains import crease_walks
 from hlr.scene.clash import find_clashes, no_clashes, self_intersecting_parts
 from hlr.scene.creases import creases
 from hlr.scene.defects import defect_notes, part_reports
 from hlr.scene.duplicates import without_duplicates
 from hlr.scene.intersection_lines import intersection_lines
 from hlr.scene.needles import reliable_normals
-from hlr.scene.scene import Chains, Scene, TrueSurfaces
+from hlr.scene.scene import Scene, TrueSurfaces
 from hlr.scene.spindle_tori import self_intersecting_tori
 from hlr.scene.stitching import stitch_borders
 from hlr.source.bounds import LARGEST_COORDINATE
@@ -43,7 +43,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
     group_of, group_part, edge_part = found.triangle_group, found.group_part, found.edge_part
     edges, offsets, edge_group, kind = mesh.edges, mesh.offsets, found.edge_group, found.edge_kind
     groups = found.groups()
-    chains, facets, drawn = _source_chains(found), None, None
+    walks, facets, drawn = found.walks(), None, None
     if not brep.all() and len(edges):
         reliable = reliable_normals(mesh, points, tables.triangles, found.triangle_part, tables.precision)
         turned = found.turned
@@ -51,7 +51,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         crease_kind = creases(
             mesh, tables.triangles, reliable.fold, edge_part, ~brep, crease, points, _sizes(found, groups, len(brep))
         )
-        chains = merge_chains(chains, crease_chains(points, edges, crease_kind, edge_part))
+        walks = walks.merged(crease_walks(points, edges, crease_kind, edge_part))
         kind = kind.copy()
         np.copyto(kind[: len(crease_kind)], crease_kind, where=crease_kind != INTERIOR)
         drawn = np.bincount(edge_part[crease_kind != INTERIOR], minlength=len(brep)).tolist()
@@ -81,7 +81,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         lines = met.edges + np.int32(len(points))
         points = np.concatenate([points, met.points])
         crossed, intersections = intersection_lines(met, found, tables, true, len(edges), deflection)
-        chains = merge_chains(chains, crossed)
+        walks = walks.merged(crossed)
         pair = met.group[:, 0].astype(np.int64) << 32 | met.group[:, 1]
         groups, own_group = groups.with_wires(points, lines, pair, True)
         edges, edge_part = (
@@ -109,7 +109,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         edge_kind=kind,
         edge_curved=np.concatenate([found.edge_curved, np.zeros(added, bool)]) if added else found.edge_curved,
         groups=groups,
-        chains=chains,
+        walks=walks,
         parts=parts,
         notes=(*meshed.notes, *defect_notes(parts)),
         true_surfaces=true,
@@ -170,22 +170,6 @@ def _sizes(found: MeshScene, groups: Groups, parts: int) -> Floats:
     np.maximum.at(high, found.group_part, groups.high)
     span = np.where(high >= low, high - low, 0.0)
     return np.asarray(np.sqrt((span * span).sum(axis=1)))
-
-
-def _source_chains(found: MeshScene) -> Chains:
-    none = np.full(len(found.walk_kind), -1, np.int32)
-    return Chains(
-        offsets=found.walk_offsets,
-        edges=found.walk_edges,
-        reversed=found.walk_reversed,
-        kind=found.walk_kind,
-        part=found.walk_part,
-        index=found.walk_index,
-        other=none,
-        face=none,
-        straight=found.walk_straight,
-        curve=none,
-    )
 
 
 def _true_surfaces(whole: PartMeshes, found: MeshScene) -> TrueSurfaces | None:

@@ -112,10 +112,11 @@ def _surface_notes(open_parts: list[ScenePart]) -> list[Note]:
 
 def _border_edges(found: MeshScene, offsets: Ints, parts: int) -> list[int]:
     """How many edges of each part's B-rep bound one face only."""
-    walk = np.repeat(np.arange(len(found.walk_part)), np.diff(found.walk_offsets))
+    walks = found.walks()
+    walk = np.repeat(np.arange(len(walks)), np.diff(walks.offsets))
     sides = np.append(np.diff(offsets), np.zeros(len(found.loose), np.int32))
-    ends = walk[sides[found.walk_edges] == 1]
-    edges = np.unique(found.walk_part[ends].astype(np.int64) << 32 | found.walk_index[ends])
+    ends = walk[sides[walks.edges] == 1]
+    edges = np.unique(walks.part[ends].astype(np.int64) << 32 | walks.index[ends])
     shown: list[int] = np.bincount(edges >> 32, minlength=parts).tolist()
     return shown
 

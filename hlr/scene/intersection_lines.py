@@ -9,7 +9,7 @@ from hlr import _kernel
 from hlr._kernel import MeshScene, PartTables
 from hlr.scene.chains import STRAIGHT_ON
 from hlr.scene.clash import Clashes
-from hlr.scene.scene import Chains, IntersectionCurves, TrueSurfaces
+from hlr.scene.scene import IntersectionCurves, TrueSurfaces
 from hlr.source.model import Curves
 from hlr.tables.line_classes import EdgeClass
 
@@ -21,7 +21,7 @@ def intersection_lines(
     surfaces: TrueSurfaces | None,
     first: int,
     deflection: float,
-) -> tuple[Chains, IntersectionCurves | None]:
+) -> tuple[_kernel.Walks, IntersectionCurves | None]:
     """The lines, and their curves where a face is curved.
 
     first: the number of the first segment among the edges of the scene; deflection: model units. Where two lines cross,
@@ -41,8 +41,7 @@ def intersection_lines(
     offsets, order, backward = _kernel.chain(met.edges, key.ravel().astype(np.int32), met.points, STRAIGHT_ON)
     head = order[offsets[:-1]]
     parts = np.sort(found.group_part[met.group[head]], axis=1)
-    none = np.full(len(parts), -1, np.int32)
-    curve, curves = none, None
+    curve, curves = None, None
     if surfaces is not None and bent.any():
         wanted = np.zeros(len(surfaces.number), bool)
         wanted[faces[met.triangle[bent]]] = True
@@ -59,16 +58,13 @@ def intersection_lines(
             IntersectionCurves(records, true.rise, np.concatenate([tables.points, true.points])),
             true.number,
         )
-    chains = Chains(
-        offsets=offsets,
-        edges=order + np.int32(first),
-        reversed=backward,
-        kind=np.full(len(parts), EdgeClass.INTERSECTION, np.uint8),
-        part=np.ascontiguousarray(parts[:, 0]),
-        index=none,
+    walks = _kernel.Walks(
+        offsets,
+        order + np.int32(first),
+        backward,
+        np.full(len(parts), EdgeClass.INTERSECTION, np.uint8),
+        np.ascontiguousarray(parts[:, 0]),
         other=np.ascontiguousarray(parts[:, 1]),
-        face=none,
-        straight=np.zeros(len(parts), bool),
         curve=curve,
     )
-    return chains, curves
+    return walks, curves

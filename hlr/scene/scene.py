@@ -53,30 +53,6 @@ class TrueSurfaces:
 
 
 @dataclass(frozen=True, slots=True)
-class Chains:
-    """Source edges as walks over mesh edges, sorted by part, then source edge.
-
-    offsets (c+1,), edges (k,) mesh edges, reversed (k,) bool: walked from second to first vertex
-    kind (c,) uint8 EdgeClass, part (c,) int32, index (c,) int32 in the part's TopExp edge map, -1 for meshes
-    other (c,) int32: of an intersection line the second part, else -1
-    face (c,) int32: of an outline the face, in the part's TopExp face map, else -1
-    straight (c,) bool: two planar faces meet there at an angle; two planes have a straight line in common
-    curve (c,) int32: of an intersection line its curve in `IntersectionCurves`, else -1
-    """
-
-    offsets: Ints
-    edges: Ints
-    reversed: npt.NDArray[np.bool_]
-    kind: npt.NDArray[np.uint8]
-    part: Ints
-    index: Ints
-    other: Ints
-    face: Ints
-    straight: npt.NDArray[np.bool_]
-    curve: Ints
-
-
-@dataclass(frozen=True, slots=True)
 class IntersectionCurves:
     """The true curves of n intersection lines.
 
@@ -120,6 +96,7 @@ class Geometry:
     lines, which belong to a group of their own, or outlines of true surfaces, which belong to their part's group.
     edge_kind (e,): an EdgeClass or INTERIOR; edge_curved (e,) bool: a curved surface may show its outline there.
     true_surfaces: None where no part has a B-rep.
+    walks: edges of the source, creases and borders of meshes, intersection lines and outlines as walks over edges.
     convex: everything is one convex body, as far as floating point tells.
     intersections: None where no intersection line is curved.
     facets (t, 3): normals of bare meshes, zero where the coordinates are too coarse for one; None: all is B-rep.
@@ -140,7 +117,7 @@ class Geometry:
     edge_kind: npt.NDArray[np.uint8]
     edge_curved: npt.NDArray[np.bool_]
     groups: _kernel.Groups
-    chains: Chains
+    walks: _kernel.Walks
     parts: tuple[ScenePart, ...]
     true_surfaces: TrueSurfaces | None = None
     convex: bool = False

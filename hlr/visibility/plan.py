@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from hlr import _kernel
 from hlr.image.image import Image
 from hlr.request.accuracy import CONTACT_SPARE, MESH_CONTACT, MOST_LIFT
@@ -84,7 +82,7 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
     planner.on("back-face culling", facts)
     planner.on(LEGIBILITY)
     touch = planner.on("contact tolerance", loose)
-    sought = int(np.count_nonzero(~image.chains.straight & (image.chains.index >= 0)))
+    sought = image.walks.bent()
     sought += 0 if image.silhouettes is None else len(image.silhouettes.curves.kind)
     every = planner.on("exact curves", Facts(bent=sought))
     return Plan(

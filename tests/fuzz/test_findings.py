@@ -51,17 +51,12 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
     drawn = [side for side in range(4) if side != missing]
     nothing = np.zeros(0, np.int32)
     edges = np.array([[0, 1], [1, 2], [2, 3], [3, 0]], np.int32)
-    none = np.full(1, -1, np.int32)
     walks = _kernel.Walks(
         np.array([0, 4], np.int32),
         np.arange(4, dtype=np.int32),
         np.zeros(4, bool),
         np.zeros(1, np.uint8),
         np.zeros(1, np.int32),
-        none,
-        none,
-        none,
-        np.zeros(1, bool),
     )
     space = np.column_stack([flat, np.zeros(4)])
     mesh = _kernel.Mesh(space, np.zeros((0, 3), np.int32), edges, np.zeros(5, np.int32), nothing)
@@ -115,7 +110,7 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
         ),
         True,
     )
-    lines, _ = cut.finished(None, np.zeros((0, 3, 4)), none, np.zeros(1, np.int32), np.zeros(1))
+    lines, _ = cut.finished(None, np.zeros((0, 3, 4)), np.full(1, -1, np.int32), np.zeros(1, np.int32), np.zeros(1))
     held = lines.columns()
     points, offsets = held["points"].tolist(), held["offsets"].tolist()
     return sorted(points[i:j] for i, j in itertools.pairwise(offsets))

@@ -129,9 +129,9 @@ def test_no_line_runs_across_what_the_frame_cut_away():
 @pytest.mark.parametrize("normal", [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (2, 1, 0), (-1, 2, 0)])
 def test_what_is_left_of_a_border_is_walked_as_before(normal):
     scene = image_of_model(sheet(10, 0.0))
-    (kept,) = np.unique(scene.chains.kind)
+    (kept,) = np.unique(scene.walks.kind)
     cut, _ = clip(scene, [Plane(tuple(map(float, normal)), 0.0)])
-    chains = cut.chains
+    chains = cut.walks
     # A closed walk begins anywhere: the stretch that it lost may leave it in two.
     assert chains.kind.tolist() in ([kept], [kept, kept])
     walked = cut.edges[chains.edges]

@@ -75,7 +75,7 @@ def traced(shape, view, perspective, finer=1.0):
 
 def outlines(scene) -> Iterator[tuple[int, np.ndarray]]:
     """(face, points) of every outline before visibility."""
-    chains = scene.chains
+    chains = scene.walks
     for c in np.flatnonzero(chains.face >= 0):
         edges = chains.edges[chains.offsets[c] : chains.offsets[c + 1]]
         ends = scene.edges[edges]
@@ -193,7 +193,7 @@ def test_between_its_points_too_a_curve_follows_the_surface(shape, view, camera)
     shape = shape()
     scene, seen, tolerances = traced(shape, view, camera)
     silhouettes = scene.silhouettes
-    faces = scene.chains.face[scene.chains.face >= 0]
+    faces = scene.walks.face[scene.walks.face >= 0]
     assert len(faces) == len(silhouettes.source)
     assert (silhouettes.curves.kind > 0).any()
     for k in np.flatnonzero(silhouettes.curves.kind > 0):

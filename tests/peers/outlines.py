@@ -38,7 +38,7 @@ VIEWS: tuple[tuple[Any, Options], ...] = (
 
 def outlines(scene: Any) -> Iterator[tuple[int, int, np.ndarray]]:
     """(part, face, points) of every outline."""
-    chains = scene.chains
+    chains = scene.walks
     for c in np.flatnonzero(chains.face >= 0):
         ends = scene.edges[chains.edges[chains.offsets[c] : chains.offsets[c + 1]]]
         yield int(chains.part[c]), int(chains.face[c]), scene.points[np.append(ends[:, 0], ends[-1, 1])]

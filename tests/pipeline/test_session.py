@@ -84,8 +84,8 @@ def test_an_image_is_no_scene_and_leaves_its_scene_as_it_was():
     shown = session.shown(front)
     assert isinstance(shown, Image) and not isinstance(shown, Scene)
     # The outline of the mantle is added to the image alone: seen from above there is none.
-    assert len(shown.chains.kind) == len(session.scene.chains.kind) + 2
-    assert len(session.shown(top).chains.kind) == len(session.scene.chains.kind)
+    assert len(shown.walks.kind) == len(session.scene.walks.kind) + 2
+    assert len(session.shown(top).walks.kind) == len(session.scene.walks.kind)
     assert np.array_equal(session.scene.points, points)
 
 

@@ -9,7 +9,7 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hlr import SourceError
+from hlr import SourceError, _kernel
 from hlr.scene import build as building
 from hlr.scene.build import build
 from hlr.scene.duplicates import without_duplicates
@@ -90,6 +90,12 @@ def test_the_tables_of_any_soup_agree(soup, crease):
     check(scene_of((np.array(points, float), np.array(faces)), crease))
 
 
+def spoilt(walks: _kernel.Walks, **columns: np.ndarray) -> _kernel.Walks:
+    """The walks with other columns."""
+    names = ("offsets", "edges", "reversed", "kind", "part", "index", "other", "face", "straight", "curve")
+    return _kernel.Walks(**{name: columns.get(name, getattr(walks, name)) for name in names})
+
+
 @pytest.mark.parametrize(
     "spoil",
     [
@@ -97,8 +103,8 @@ def test_the_tables_of_any_soup_agree(soup, crease):
         lambda s: replace(s, incident=np.roll(s.incident, 1)),
         lambda s: replace(s, edge_kind=np.full_like(s.edge_kind, INTERIOR)),
         lambda s: replace(s, triangle_group=np.roll(s.triangle_group, 1)),
-        lambda s: replace(s, chains=replace(s.chains, reversed=~s.chains.reversed)),
-        lambda s: replace(s, chains=replace(s.chains, edges=s.chains.edges[::-1].copy())),
+        lambda s: replace(s, walks=spoilt(s.walks, reversed=~s.walks.reversed)),
+        lambda s: replace(s, walks=spoilt(s.walks, edges=s.walks.edges[::-1].copy())),
         lambda s: replace(s, groups=scene_of(parts(box((1, 1, 1)), box((1, 1, 1)))).groups),
         lambda s: replace(s, points=s.points * 2),
         lambda s: replace(s, triangles=s.triangles + 1),
@@ -324,7 +330,7 @@ def test_creases_of_a_bare_mesh_never_touch_a_brep_part():
 
 def test_classes_of_a_cylinder_and_its_curved_edges():
     scene = scene_of(MODELS["cylinder"]())
-    assert sorted(scene.chains.kind.tolist()) == [EdgeClass.SHARP, EdgeClass.SHARP, EdgeClass.SEAM]
+    assert sorted(scene.walks.kind.tolist()) == [EdgeClass.SHARP, EdgeClass.SHARP, EdgeClass.SEAM]
     inside = (scene.edge_kind == INTERIOR) & scene.edge_curved
     # Only edges of the curved face may be outlines: never one within a cap.
     z = scene.points[scene.edges[inside]][:, :, 2]

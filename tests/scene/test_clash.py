@@ -61,7 +61,7 @@ class Walk:
 
 
 def walks(scene: Scene) -> list[Walk]:
-    c = scene.chains
+    c = scene.walks
     out = []
     for i in np.flatnonzero(c.kind == EdgeClass.INTERSECTION):
         own = slice(c.offsets[i], c.offsets[i + 1])

@@ -86,7 +86,7 @@ def _groups(scene: Scene) -> None:
 
 
 def _chains(scene: Scene, e: int, parts: int) -> None:
-    chains = scene.chains
+    chains = scene.walks
     count = len(chains.kind)
     assert len(chains.part) == len(chains.index) == count == len(chains.offsets) - 1, "chains have one entry each"
     assert chains.offsets[0] == 0 and (np.diff(chains.offsets) >= 0).all(), "chain offsets ascend"
@@ -102,7 +102,7 @@ def _chains(scene: Scene, e: int, parts: int) -> None:
 
 
 def _walks(scene: Scene) -> None:
-    chains = scene.chains
+    chains = scene.walks
     ends = scene.edges[chains.edges].copy()
     ends[chains.reversed] = ends[chains.reversed][:, ::-1]
     of = np.repeat(np.arange(len(chains.kind)), np.diff(chains.offsets))

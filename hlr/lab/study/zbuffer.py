@@ -76,15 +76,15 @@ def _bias(normals: Floats, scale: float, deep: float) -> Floats:
 def _edges(image: Image, role: npt.NDArray[np.uint8], normals: Floats) -> tuple[Index, Index, npt.NDArray[np.uint8]]:
     """Vertices of all polylines one after another, offsets (k + 1,) into them, and class numbers (k,)."""
     walks, kinds = [], []
-    chains = image.chains
+    known = image.walks
     drawn = (role & DRAWN) != 0
-    for i in range(len(chains.kind)):
-        edges = chains.edges[chains.offsets[i] : chains.offsets[i + 1]]
+    for i in range(len(known)):
+        edges = known.edges[known.offsets[i] : known.offsets[i + 1]]
         if len(edges) and drawn[edges].all():
             ends = image.edges[edges]
-            back = chains.reversed[chains.offsets[i] : chains.offsets[i + 1]]
+            back = known.reversed[known.offsets[i] : known.offsets[i + 1]]
             walks.append(np.append(np.where(back, ends[:, 1], ends[:, 0]), ends[-1, 0 if back[-1] else 1]))
-            kinds.append(int(chains.kind[i]))
+            kinds.append(int(known.kind[i]))
     smooth = goes_on()[image.edge_kind] & image.edge_curved
     for e in np.flatnonzero(smooth & _folds(image, normals[:, 2])):
         walks.append(image.edges[e])

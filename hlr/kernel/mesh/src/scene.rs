@@ -18,9 +18,10 @@ pub struct Scene {
     /// Per edge with triangles: the part of its first triangle.
     pub edge_part: Vec<i32>,
     pub edge_group: Vec<i32>,
+    /// Along the edges of the source.
     pub walks: Walks,
-    /// Per walk: whether two planar faces meet there at an angle.
-    pub straight: Vec<bool>,
+    /// Edges of the source along which no triangle has an edge; their numbers follow those of the others.
+    pub loose: Vec<[i32; 2]>,
     /// Class of every edge; edges without triangles are at the end. INTERIOR where no edge of the source runs.
     pub kind: Vec<u8>,
     /// Per triangle: its face may show an outline.
@@ -77,11 +78,11 @@ pub fn scene(tables: &Tables, facts: &Facts) -> Scene {
     let edge_part: Vec<i32> = edges().map(|e| triangle_part[facts.around(e)[0] as usize]).collect();
     // Side by side: edges of the source, and bodies.
     let of_edges = || {
-        let walks = source_walks(tables, &facts.edges);
-        let kind = kinds(facts.edges.len(), &walks);
-        let straight = between_planes(&walks, facts, &kind, &curved);
+        let (mut walks, loose) = source_walks(tables, &facts.edges);
+        let kind = kinds(facts.edges.len() + loose.len(), &walks);
+        walks.straight = between_planes(&walks, facts, &kind, &curved);
         let edge_curved = edge_curved(facts, &kind, &curved, &face_of, tables.face_planar.len());
-        (walks, kind, straight, edge_curved)
+        (walks, loose, kind, edge_curved)
     };
     let of_bodies = || {
         let bodies = bodies(tables, facts, &triangle_part, &curved);
@@ -93,14 +94,14 @@ pub fn scene(tables: &Tables, facts: &Facts) -> Scene {
         let surfaces = surfaces(tables, turned.as_ref(), &face_of);
         (bodies, turned, folded, reports, edge_group, surfaces)
     };
-    let ((walks, kind, straight, edge_curved), (bodies, turned, folded, reports, edge_group, surfaces)) =
+    let ((walks, loose, kind, edge_curved), (bodies, turned, folded, reports, edge_group, surfaces)) =
         rayon::join(of_edges, of_bodies);
     Scene {
         triangle_part,
         edge_part,
         edge_group,
         walks,
-        straight,
+        loose,
         kind,
         curved,
         edge_curved,
@@ -114,7 +115,7 @@ pub fn scene(tables: &Tables, facts: &Facts) -> Scene {
 
 /// Where several walks run along one edge, the first gives its class.
 fn kinds(edges: usize, walks: &Walks) -> Vec<u8> {
-    let mut kind = vec![INTERIOR; edges + walks.loose.len()];
+    let mut kind = vec![INTERIOR; edges];
     for (walk, w) in walks.offsets.windows(2).enumerate().rev() {
         for &e in &walks.edges[w[0] as usize..w[1] as usize] {
             kind[e as usize] = walks.kind[walk];

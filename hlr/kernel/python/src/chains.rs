@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, expect_slice_below, flat, rows};
@@ -11,9 +10,11 @@ use super::guard::caught;
 use super::mesh_input::Mesh;
 use super::visibility::Visibility;
 use super::visibility_input::VisibilityInput;
+use super::walks::Walks;
 use hlr_linework::lines::candidates::{About, Chains as Found, Surface, add_outlines};
 use hlr_linework::lines::chain::{Straight, chain as chain_edges};
 use hlr_linework::lines::drawing::Kind;
+use hlr_mesh::walks::Walks as Columns;
 
 type ChainArrays<'py> = (Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<bool>>);
 
@@ -37,85 +38,26 @@ pub fn chain<'py>(
     Ok((c.offsets.into_pyarray(py), c.order.into_pyarray(py), c.reversed.into_pyarray(py)))
 }
 
-/// Walks over mesh edges, some of which become lines.
-#[pyclass(frozen)]
-pub struct Walks {
-    offsets: Vec<i32>,
-    edges: Vec<i32>,
-    reversed: Vec<bool>,
-    about: Vec<About>,
-}
-
-#[pymethods]
-impl Walks {
-    #[new]
-    #[allow(clippy::too_many_arguments)] // one argument per column: the stub names them
-    fn new(
-        py: Python<'_>,
-        offsets: PyReadonlyArray1<'_, i32>,
-        edges: PyReadonlyArray1<'_, i32>,
-        reversed: PyReadonlyArray1<'_, bool>,
-        kind: PyReadonlyArray1<'_, u8>,
-        part: PyReadonlyArray1<'_, i32>,
-        index: PyReadonlyArray1<'_, i32>,
-        face: PyReadonlyArray1<'_, i32>,
-        other: PyReadonlyArray1<'_, i32>,
-        straight: PyReadonlyArray1<'_, bool>,
-    ) -> PyResult<Walks> {
-        caught(py, || {
-            let (offsets, edges) = (flat(&offsets, "offsets")?, flat(&edges, "edges")?);
-            let reversed = flat(&reversed, "reversed")?;
-            let kind = flat(&kind, "kind")?;
-            let (part, index) = (flat(&part, "part")?, flat(&index, "index")?);
-            let (face, other) = (flat(&face, "face")?, flat(&other, "other")?);
-            let straight = flat(&straight, "straight")?;
-            for (name, found) in [
-                ("part", part.len()),
-                ("index", index.len()),
-                ("face", face.len()),
-                ("other", other.len()),
-                ("straight", straight.len()),
-            ] {
-                expect_len(name, found, kind.len())?;
-            }
-            expect_len("offsets", offsets.len(), kind.len() + 1)?;
-            expect_len("reversed", reversed.len(), edges.len())?;
-            expect_below("offsets", offsets.iter().copied(), edges.len() + 1)?;
-            if offsets.windows(2).any(|w| w[0] >= w[1]) {
-                return Err(PyValueError::new_err("offsets must ascend"));
-            }
-            let about = |i: usize| About {
-                kind: Kind(kind[i]),
-                part: part[i],
-                edge: index[i],
-                face: face[i],
-                other: other[i],
+/// The walks whose class is drawn.
+fn chosen(walks: &Columns, drawn: &[bool]) -> Found {
+    let mut out = Found::new();
+    for walk in 0..walks.len() {
+        let run = walks.run(walk);
+        // Walks of a class that is not drawn may still hold contours: those are drawn as outlines instead.
+        if drawn[usize::from(walks.kind[walk])] && !run.is_empty() {
+            let about = About {
+                kind: Kind(walks.kind[walk]),
+                part: walks.part[walk],
+                edge: walks.index[walk],
+                face: walks.face[walk],
+                other: walks.other[walk],
                 noisy: false,
-                straight: straight[i],
+                straight: walks.straight[walk],
             };
-            Ok(Walks {
-                offsets: offsets.to_vec(),
-                edges: edges.to_vec(),
-                reversed: reversed.to_vec(),
-                about: (0..kind.len()).map(about).collect(),
-            })
-        })
-    }
-}
-
-impl Walks {
-    /// The chains whose class is drawn.
-    fn chosen(&self, drawn: &[bool]) -> Found {
-        let mut out = Found::new();
-        for (about, w) in self.about.iter().zip(self.offsets.windows(2)) {
-            // Chains of a class that is not drawn may still hold contours: those are drawn as outlines instead.
-            if drawn[about.kind.0 as usize] {
-                let run = w[0] as usize..w[1] as usize;
-                out.push(&self.edges[run.clone()], &self.reversed[run], *about);
-            }
+            out.push(&walks.edges[run.clone()], &walks.reversed[run], about);
         }
-        out
     }
+    out
 }
 
 /// The walks over mesh edges that become lines.
@@ -161,9 +103,9 @@ impl Chains {
             expect_len("groups of edges", surface.edge_group.len(), edges.len())?;
             expect_slice_below("triangle_part", surface.triangle_part, surface.has_faces.len())?;
             expect_below("found", found.edge.iter().copied(), edges.len())?;
-            expect_below("edges of walks", walks.edges.iter().copied(), edges.len())?;
-            expect_below("classes of walks", walks.about.iter().map(|a| i32::from(a.kind.0)), input.drawn.len())?;
-            let mut out = walks.chosen(&input.drawn);
+            walks.expect_edges(edges.len())?;
+            expect_below("classes of walks", walks.0.kind.iter().map(|&kind| i32::from(kind)), input.drawn.len())?;
+            let mut out = chosen(&walks.0, &input.drawn);
             add_outlines(&surface, &found.edge, &mut out);
             Ok(Chains(Arc::new(out)))
         })

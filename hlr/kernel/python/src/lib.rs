@@ -35,6 +35,7 @@ mod true_surfaces;
 mod view;
 mod visibility;
 mod visibility_input;
+mod walks;
 
 use pyo3::prelude::*;
 
@@ -66,7 +67,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<camera::Camera>()?;
     m.add_class::<lines::LineTolerances>()?;
     m.add_class::<geometry::Curves>()?;
-    m.add_class::<chains::Walks>()?;
+    m.add_class::<walks::Walks>()?;
     m.add_class::<chains::Chains>()?;
     m.add_class::<lines::Cut>()?;
     m.add_class::<brep_file::BrepFile>()?;

@@ -11,6 +11,7 @@ use super::mesh_input::Mesh;
 use super::silhouette::Outlines;
 use super::true_surfaces::TrueSurfaces;
 use super::view::{Flat, Rows, arrays, flat, rows};
+use super::walks::Walks;
 use hlr_linework::silhouette::image::{Classes, Image, Outlined as Found};
 use hlr_linework::silhouette::outlined::{Lengths, outlined as add};
 
@@ -53,10 +54,12 @@ arrays! { Outlined {
     own_face: flat Flat<'py, i32> = |o| &o.0.own.face;
     own_off: flat Flat<'py, i32> = |o| &o.0.own.off;
     own_sheet: flat Flat<'py, i32> = |o| &o.0.own.sheet;
-    outline_starts: flat Flat<'py, i32> = |o| &o.0.starts;
-    outline_part: flat Flat<'py, i32> = |o| &o.0.part_of_outline;
-    outline_face: flat Flat<'py, i32> = |o| &o.0.face_in_part;
 }
+
+    /// The outlines as walks of this class; first: how many edges the image had before.
+    fn walks(&self, kind: u8, first: i32) -> Walks {
+        Walks(self.0.walks(kind, first))
+    }
 }
 
 /// The image with its outlines.

@@ -13,6 +13,7 @@ use super::groups::Groups;
 use super::guard::caught;
 use super::threads::{release_later, run};
 use super::view::{Flat, Rows, arrays, flat, matrices, rows};
+use super::walks::Walks;
 use hlr_brep::format::Matrix;
 use hlr_mesh::facts::Facts;
 use hlr_mesh::scene::{Scene, scene};
@@ -341,7 +342,7 @@ arrays! { MeshScene {
     triangle_part: flat Flat<'py, i32> = |s| &s.scene.triangle_part;
     triangle_group: flat Flat<'py, i32> = |s| &s.scene.bodies.group_of;
     curved: flat Flat<'py, bool> = |s| &s.scene.curved;
-    loose: rows Rows<'py, i32> = |s| &s.scene.walks.loose;
+    loose: rows Rows<'py, i32> = |s| &s.scene.loose;
     edge_part: flat Flat<'py, i32> = |s| &s.scene.edge_part;
     edge_group: flat Flat<'py, i32> = |s| &s.scene.edge_group;
     edge_kind: flat Flat<'py, u8> = |s| &s.scene.kind;
@@ -349,13 +350,6 @@ arrays! { MeshScene {
     group_part: flat Flat<'py, i32> = |s| &s.scene.bodies.part_of;
     welded: flat Flat<'py, bool> = |s| &s.scene.bodies.welded;
     folded: flat Flat<'py, bool> = |s| &s.scene.folded;
-    walk_offsets: flat Flat<'py, i32> = |s| &s.scene.walks.offsets;
-    walk_edges: flat Flat<'py, i32> = |s| &s.scene.walks.edges;
-    walk_reversed: flat Flat<'py, bool> = |s| &s.scene.walks.reversed;
-    walk_kind: flat Flat<'py, u8> = |s| &s.scene.walks.kind;
-    walk_part: flat Flat<'py, i32> = |s| &s.scene.walks.part;
-    walk_index: flat Flat<'py, i32> = |s| &s.scene.walks.index;
-    walk_straight: flat Flat<'py, bool> = |s| &s.scene.straight;
     corner: rows Rows<'py, i32> = |s| s.scene.surfaces.corner.as_ref().unwrap_or(&s.tables.corner);
     face_place: matrices Bound<'py, PyArray3<f64>> = |s| &s.scene.surfaces.place;
     face_inward: flat Flat<'py, bool> = |s| &s.scene.surfaces.inward;
@@ -366,6 +360,11 @@ arrays! { MeshScene {
     #[getter]
     fn mesh(&self) -> MeshFacts {
         MeshFacts { tables: self.tables.clone(), facts: self.facts.clone() }
+    }
+
+    /// Along the edges of the source.
+    fn walks(&self) -> Walks {
+        Walks(self.scene.walks.clone())
     }
 
     /// (t,) which triangles were turned; None where none was.

@@ -4,15 +4,16 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
-use super::arrays::{expect_ascending, expect_below, expect_len, expect_slice_below, flat as slice};
+use super::arrays::{expect_below, expect_len, expect_slice_below, flat as slice};
 use super::camera::Camera;
 use super::curve_columns::CurveColumns;
 use super::mesh_input::Mesh;
 use super::threads::run;
 use super::true_surfaces::TrueSurfaces;
 use super::view::{Flat, Rows, arrays, flat, rows};
+use super::walks::Walks;
 use hlr_linework::silhouette::grazing::Grazing;
-use hlr_linework::silhouette::sought::{Walks, traced_faces as sought};
+use hlr_linework::silhouette::sought::traced_faces as sought;
 use hlr_linework::silhouette::trace::{Silhouette, Traced, trace};
 use hlr_linework::silhouette::{FaceRecord, Model};
 
@@ -47,7 +48,7 @@ pub fn silhouettes<'py>(
     on: &TrueSurfaces,
     kind: PyReadonlyArray1<'py, u8>,
     goes_on: PyReadonlyArray1<'py, bool>,
-    walks: [PyReadonlyArray1<'py, i32>; 3],
+    walks: &Walks,
     camera: &Camera,
     chord: f64,
 ) -> PyResult<Outlines> {
@@ -58,7 +59,8 @@ pub fn silhouettes<'py>(
     expect_len("triangle_face", triangle_face.len(), all.triangles.len())?;
     expect_len("kind", kind.len(), all.edges.len())?;
     let smooth: Vec<bool> = kind.iter().map(|&kind| goes_on.get(usize::from(kind)) == Some(&true)).collect();
-    let source = walks_of(&walks, all.edges.len())?.of_edges(all.edges.len());
+    walks.expect_edges(all.edges.len())?;
+    let source = walks.0.along_source(all.edges.len());
     if chord.is_nan() || chord <= 0.0 {
         return Err(PyValueError::new_err("chord must be positive"));
     }
@@ -90,17 +92,6 @@ pub fn silhouettes<'py>(
         grazing,
         traced,
     })
-}
-
-/// offsets, edges and index of walks over mesh edges, of which there are `count`.
-fn walks_of<'a>(columns: &'a [PyReadonlyArray1<'_, i32>; 3], count: usize) -> PyResult<Walks<'a>> {
-    let [offsets, edges, index] = columns;
-    let (offsets, edges, index) = (slice(offsets, "offsets")?, slice(edges, "edges")?, slice(index, "index")?);
-    expect_len("offsets", offsets.len(), index.len() + 1)?;
-    expect_ascending("offsets", offsets)?;
-    expect_slice_below("offsets", offsets, edges.len() + 1)?;
-    expect_slice_below("edges", edges, count)?;
-    Ok(Walks { offsets, edges, index })
 }
 
 /// A face as the kernel takes it.

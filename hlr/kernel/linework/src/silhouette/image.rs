@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use crate::lines::View;
 use hlr_brep::geometry::vector::Vector;
+use hlr_mesh::walks::Walks;
 
 /// The image without its outlines.
 pub struct Image<'a> {
@@ -106,6 +107,23 @@ impl Outlined {
             number: roomy(std::iter::repeat_n(-1, edges), more_edges),
             starts: vec![0],
             ..Outlined::default()
+        }
+    }
+
+    /// The outlines as walks of this class, in their order. first: how many edges the image had before.
+    pub fn walks(&self, kind: u8, first: i32) -> Walks {
+        let (count, total) = (self.part_of_outline.len(), self.starts[self.part_of_outline.len()]);
+        Walks {
+            offsets: self.starts.clone(),
+            edges: (first..first + total).collect(),
+            reversed: vec![false; total as usize],
+            kind: vec![kind; count],
+            part: self.part_of_outline.clone(),
+            index: vec![-1; count],
+            other: vec![-1; count],
+            face: self.face_in_part.clone(),
+            straight: vec![false; count],
+            curve: vec![-1; count],
         }
     }
 
