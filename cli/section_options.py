@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from hlr.errors import OptionError
 
-from .parameters import SectionPlane, as_table
+from .parameters import SectionPlane
+from .view_options import names_of
 
 if TYPE_CHECKING:
-    from hlr.request.options import View
+    from hlr.request.options import SectionPlace, View
 
     from .parameters import Vector3
 
@@ -22,10 +23,10 @@ SECTION = (
         type=SectionPlane(),
         metavar="VIEW[@PLACE]",
         multiple=True,
-        callback=as_table("a view is cut once"),
         help="Draw this view as a section: what lies before a plane across it is taken away, and cut faces are "
         "hatched. front: through the middle of the model; front@12.5: at this coordinate, in millimetres, on the axis "
-        "that the view looks along; front@0,12.5,0: through this point. May be repeated.",
+        "that the view looks along; front@0,12.5,0: through this point. May be repeated, also for one view, which "
+        "is then drawn once for each plane.",
     ),
     click.option(
         "--uncut",
@@ -36,7 +37,9 @@ SECTION = (
 )
 
 
-def with_sections(views: tuple[View, ...], sections: dict[str, Any] | None, eye: Vector3 | None) -> tuple[View, ...]:
+def with_sections(
+    views: tuple[View, ...], sections: tuple[tuple[str, SectionPlace], ...], eye: Vector3 | None
+) -> tuple[View, ...]:
     """The views that were asked for, and those that are cut. Raises OptionError where one is seen from an eye."""
     if not sections:
         return views
@@ -45,3 +48,19 @@ def with_sections(views: tuple[View, ...], sections: dict[str, Any] | None, eye:
     from hlr.request.section import with_sections as with_cut_ones
 
     return with_cut_ones(views, sections)
+
+
+def names_of_drawings(
+    views: tuple[View, ...], sections: tuple[tuple[str, SectionPlace], ...], eye: Vector3 | None
+) -> list[str]:
+    """The names of drawings in file names: those of the views, and of the sections of one view.
+
+    views: with those that are cut. Raises OptionError where both an eye and a view are given, or a plane twice.
+    """
+    names = names_of(views, eye)
+    if not sections:
+        return names
+    from hlr.request.section import checked_section
+    from hlr.request.shown_views import shown_views
+
+    return [each.name for each in shown_views(views, checked_section(sections))]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from hlr.errors import StrictError
@@ -16,6 +15,7 @@ from .streams import clear_line, say
 if TYPE_CHECKING:
     from hlr.drawing.drawing import Drawing
     from hlr.drawing.notes import Note
+    from hlr.drawing.picture import Picture
 
 
 def tell_notes(notes: Iterable[Note], strict: bool = False, quiet: bool = False) -> None:
@@ -32,25 +32,12 @@ def tell_notes(notes: Iterable[Note], strict: bool = False, quiet: bool = False)
             remark(str(note))
 
 
-def of_views(drawings: Sequence[Drawing], told: Sequence[Note] = ()) -> list[Note]:
-    """The notes of several views, without those that are told already.
+def of_views(drawings: Sequence[Drawing | Picture], told: Sequence[Note] = ()) -> list[Note]:
+    """The notes of several views, which name those that they are of, without those that are told already."""
+    from hlr.drawing.notes import of_each_view
 
-    A note that not all views have begins with the names of those that have it, unless it names a section itself or is
-    of the model, which is another in a section.
-    """
-    from hlr.drawing.notes import NAME_THEIR_VIEW
-    from hlr.tables.entry import listed
-
-    notes: dict[Note, list[str]] = {}
-    for drawing in drawings:
-        for note in dict.fromkeys(drawing.notes):
-            notes.setdefault(note, []).append(drawing.view.name)
-    out = []
-    for note, views in notes.items():
-        of_some = len(views) < len(drawings) and note.code not in NAME_THEIR_VIEW
-        which = f"view{'s' if len(views) > 1 else ''} {listed(views, 'and')}: " if of_some else ""
-        out += [] if note in told else [replace(note, text=which + note.text)]
-    return out
+    notes = of_each_view([drawing.view.name for drawing in drawings], [drawing.notes for drawing in drawings])
+    return [note for note in notes if note not in told]
 
 
 def tell_early(notes: Iterable[Note], strict: bool = False, quiet: bool = False) -> None:

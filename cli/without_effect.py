@@ -6,7 +6,7 @@ the request itself.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -143,11 +143,11 @@ def _for_hidden_lines(asked: Asked) -> str:
     return "has no effect: --no-hidden leaves the hidden lines out"
 
 
-def _all_cut(views: Sequence[View], sections: Mapping[str, Any], on_one_page: bool) -> bool:
+def _all_cut(views: Sequence[View], sections: Sequence[tuple[str, Any]], on_one_page: bool) -> bool:
     """Whether all views are sections. views: that were asked for"""
     from hlr.request.directions import directed
 
-    return not on_one_page and all(directed(view)[0] in sections for view in views)
+    return not on_one_page and {directed(view)[0] for view in views} <= {name for name, _ in sections}
 
 
 def _without(option: str, why: str) -> Callable[[Asked], str]:
@@ -166,7 +166,13 @@ def _for_several_scales(asked: Asked) -> str:
         return "has no effect: all views have the scale that is asked for"
     if values.get("arrange"):
         return "has no effect: views on one page have one scale"
-    return "has no effect: there is one view" if len(values["views"]) < _FEW else ""
+    views = values["views"]
+    if sections := values.get("section"):
+        from hlr.request.section import checked_section, with_sections
+        from hlr.request.shown_views import shown_views
+
+        views = shown_views(with_sections(views, sections), checked_section(sections))
+    return "has no effect: there is one view" if len(views) < _FEW else ""
 
 
 def _without_lines(asked: Asked) -> str:

@@ -18,7 +18,7 @@ from ..drawn_files import Targets, targets_of, to_stdout, write
 from ..guard import start
 from ..meter import meter
 from ..parameters import Duration, Vector3
-from ..section_options import SECTION, with_sections
+from ..section_options import SECTION, names_of_drawings, with_sections
 from ..streams import Output, result_only
 from ..style_options import STYLE, style_from
 from ..telling import of_views, summary, tell_early, tell_notes, tell_plan, tell_report, tell_written, written
@@ -33,7 +33,6 @@ from ..view_options import (
     VIEW,
     WINDOW,
     Command,
-    names_of,
     options,
     perspective_of,
 )
@@ -139,6 +138,7 @@ def draw(
     printed = {name: chosen.pop(name) for name in ("template", "texts", "room")}
     time_limit = chosen.pop("time_limit")
     sections = chosen["section"]
+    chosen["section"] = sections or None
     told = {"as_json": as_json, "quiet": quiet, "time_limit": time_limit}
     if arrange is not None:
         if views:
@@ -155,7 +155,7 @@ def draw(
         return
     started = time.perf_counter() - time.process_time()  # the time of loading counts as well
     views = with_sections(views, sections, chosen["eye"])
-    names = names_of(views, chosen["eye"])
+    names = names_of_drawings(views, sections, chosen["eye"])
     views = views or ("iso",)
     style = style_from(chosen)
     request = request_of(style=style, **chosen)

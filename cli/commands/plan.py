@@ -11,10 +11,10 @@ from hlr.errors import OptionError
 from ..document_pages import names_a_page
 from ..guard import start
 from ..meter import meter
-from ..section_options import SECTION, with_sections
+from ..section_options import SECTION, names_of_drawings, with_sections
 from ..streams import result_only
 from ..verb import Verb
-from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, TIME_LIMIT, VIEW, WINDOW, names_of, options
+from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, TIME_LIMIT, VIEW, WINDOW, options
 from .draw import LINES, request_of
 
 if TYPE_CHECKING:
@@ -39,8 +39,10 @@ def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **
     --explain` adds what each step has cost.
     """
     time_limit = chosen.pop("time_limit")
-    views = with_sections(views, chosen["section"], chosen["eye"])
-    names_of(views, chosen["eye"])
+    sections = chosen["section"]
+    chosen["section"] = sections or None
+    views = with_sections(views, sections, chosen["eye"])
+    names_of_drawings(views, sections, chosen["eye"])
     if names_a_page(source, page := chosen["page"]):
         raise OptionError(f"{page} is no sheet, and pages of a document have no plan: hlr draw draws them")
     views = views or ("iso",)

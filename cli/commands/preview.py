@@ -14,7 +14,7 @@ from ..meter import meter
 from ..outputs import STDOUT, Target, check, is_folder, place, plan
 from ..parameters import Pixels, Vector3
 from ..streams import result_only, say
-from ..telling import tell_notes, tell_written
+from ..telling import of_views, tell_notes, tell_written
 from ..verb import Verb
 from ..view_options import CAMERA, CARE, CHOICE, RUN, TIME_LIMIT, VIEW, names_of, options, perspective_of
 
@@ -86,7 +86,7 @@ def preview(
             import hlr
 
             pictures = hlr.preview_views(source, list(views), request, progress=progress)
-        tell_notes((note for picture in pictures for note in picture.notes), request.strict, quiet)
+        tell_notes(of_views(pictures), request.strict, quiet)
         if explain:
             from hlr.request.effect import explained
 

@@ -47,7 +47,14 @@ class Job:
     @property
     def drawings(self) -> tuple[View, ...]:
         """What each drawing shows: a view, or all of them, arranged by a method."""
-        return (self.arrange,) if self.arrange else self.views
+        if self.arrange:
+            return (self.arrange,)
+        # Pairs of a view and a place; in a table each view is cut once.
+        if isinstance(self.options.get("section"), list | tuple):
+            from hlr.batch.request import names_of_drawings
+
+            return names_of_drawings(self.options["section"], self.views)
+        return self.views
 
     @property
     def parameters(self) -> Mapping[str, Any]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from hashlib import blake2b, file_digest
 from pathlib import Path
@@ -61,7 +61,12 @@ def key_of(job: Job, digests: Digests) -> str | None:
         "views": job.views,
         "arrange": [job.arrange, job.printed],
         "formats": job.formats,
-        "options": {name: value for name, value in job.options.items() if name != "threads"},
+        # Sections have their letters in the order of the manifest.
+        "options": {
+            name: list(value.items()) if name == "section" and isinstance(value, Mapping) else value
+            for name, value in job.options.items()
+            if name != "threads"
+        },
         "depends": [
             [path, digests.of(Path(job.root, path))]
             for path in (*job.depends, *files_of(job.options, job.root).values())

@@ -47,10 +47,10 @@ def check(values: Mapping[str, Any], views: tuple[Any, ...], root: str, arrange:
     arrange: the method by which the views are arranged on one page; empty: they are not.
     """
     from hlr.image.arrangement import check_views
-    from hlr.image.method_cells import own_cells
+    from hlr.image.method_cells import cells_of
     from hlr.public.arranged import check_arranged
     from hlr.request.check import checked, checked_views
-    from hlr.request.directions import directed
+    from hlr.request.shown_views import shown_views
     from hlr.tables.projection_methods import PROJECTION_METHODS
 
     options = checked(options_of(values, root))
@@ -62,7 +62,21 @@ def check(values: Mapping[str, Any], views: tuple[Any, ...], root: str, arrange:
     if arrange:
         method = PROJECTION_METHODS[arrange]
         check_arranged(options)
-        check_views([directed(view)[0] for view in views], own_cells(views, method), method)
+        shown = shown_views(views, options.section)
+        check_views([each.name for each in shown], cells_of(shown, method)[0], method)
+
+
+def names_of_drawings(section: Any, views: tuple[Any, ...]) -> tuple[Any, ...]:
+    """What the drawings of views are called of which some are cut; the views, where `check` refuses them."""
+    from hlr.request.check import checked_views
+    from hlr.request.section import checked_section
+    from hlr.request.shown_views import shown_views
+
+    try:
+        shown = shown_views(checked_views(views, Options()), checked_section(section))
+    except HlrError:
+        return views
+    return tuple(each.name for each in shown)
 
 
 def wrong_one(values: Mapping[str, Any], root: str, arrange: str = "") -> str | None:
@@ -81,11 +95,12 @@ def wrong_one(values: Mapping[str, Any], root: str, arrange: str = "") -> str | 
 
 def _is_refused(values: Mapping[str, Any], root: str, arrange: str) -> bool:
     """Whether options are refused beside a view that any options can have."""
-    section = values.get("section")
-    # Some sections are said by their views.
-    views = tuple(section) if isinstance(section, Mapping) else ("iso",)
+    from hlr.request.section import by_view, checked_section, with_sections
+
     try:
-        check(values, views, root, arrange)
+        # Some sections are said by their views.
+        places = by_view(checked_section(values.get("section")))
+        check(values, with_sections((), places) if places else ("iso",), root, arrange)
     except HlrError:
         return True
     return False

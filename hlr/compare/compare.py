@@ -103,7 +103,7 @@ def compare(
         after = replace(after, pieces=after.pieces.mapped(np.eye(2) * (scales[0] / scales[1])))
     before, after = _divided(before, after, tolerance_mm)
     pages = len(before.about.views), len(after.about.views)
-    before, after = with_stated_view(before, after), with_stated_view(after, before)
+    before, after = with_stated_view(before, after, tolerance_mm), with_stated_view(after, before, tolerance_mm)
     if register == "auto":
         # A view by itself has no place on a page.
         by_itself = (len(before.about.views), len(after.about.views)) != pages

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
+
+from hlr.tables.entry import listed
 
 NoteCode = Literal[
     "part-left-out",
@@ -109,7 +111,7 @@ REMARKS: frozenset[NoteCode] = frozenset(
 OF_BORDERS: frozenset[NoteCode] = frozenset({"defects", "more-defects", "open-surfaces"})
 """Codes of notes that count border edges: of a model that was cut they say something else than of the model."""
 
-NAME_THEIR_VIEW: frozenset[NoteCode] = frozenset({*OF_BORDERS, "section-not-cut"})
+NAME_THEIR_VIEW: frozenset[NoteCode] = frozenset({*OF_BORDERS, "section-not-cut", "section-not-hatched"})
 """Codes of notes that are of the model, or else name the section that they are of."""
 
 
@@ -144,3 +146,21 @@ class Note:
 
 Noted = Callable[[Sequence[Note]], None]
 """Called with notes as soon as they are known."""
+
+
+def of_each_view(names: Sequence[str], notes: Sequence[Sequence[Note]]) -> list[Note]:
+    """The notes of several views, each once.
+
+    A note that not all views have begins with the names of those that have it, unless it names a section itself or is
+    of the model, which is another in a section.
+    """
+    found: dict[Note, list[str]] = {}
+    for name, own in zip(names, notes, strict=True):
+        for note in dict.fromkeys(own):
+            found.setdefault(note, []).append(name)
+    out = []
+    for note, views in found.items():
+        of_some = len(views) < len(names) and note.code not in NAME_THEIR_VIEW
+        which = f"view{'s' if len(views) > 1 else ''} {listed(views, 'and')}: " if of_some else ""
+        out.append(replace(note, text=which + note.text))
+    return out

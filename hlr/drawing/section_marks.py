@@ -32,9 +32,6 @@ JOG = 2.5
 CHAIN = (6.0, 1.0, 1.0, 1.0)
 """Millimetres: dashes and gaps of a cutting line."""
 
-LETTERS = "ABCDEFGHJKLMNPRSTUVWXYZ"
-"""Of sections, in their order; I, O and Q look like figures."""
-
 
 @dataclass(frozen=True, slots=True)
 class SectionMark:
@@ -66,12 +63,6 @@ class MarkShapes:
     chain: list[tuple[Point, Point]]
     arrows: list[tuple[Point, Point, Point]]
     texts: list[tuple[Point, str]]
-
-
-def letter_of(number: int) -> str:
-    """The letter of a section: A to Z, then A2 and so on."""
-    turn, which = divmod(number, len(LETTERS))
-    return LETTERS[which] + (str(turn + 1) if turn else "")
 
 
 def shapes_of(mark: SectionMark) -> MarkShapes:

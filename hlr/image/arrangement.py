@@ -9,9 +9,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import permutations
+from itertools import product
+from types import MappingProxyType
 
 from hlr.common.numbers import typed
 from hlr.errors import OptionError
@@ -92,17 +93,19 @@ def arranged(
     rooms: Sequence[Room],
     scale: float | None,
     gap: float = LEAST_GAP,
+    beside: Mapping[int, Cell] = MappingProxyType({}),
 ) -> Arrangement:
     """The arrangement of views that allows the largest scale; where several rooms do, that in the first of them.
 
     own: the cell that the method has for each view, None for those that lie in any free one; sizes: width and height of
     each at 1:1, millimetres; scale: None: the largest standard one; gap: the least between views, millimetres.
+    beside: of views without a cell of their own, those that best lie in line with one
 
     Raises OptionError for a page without room for the views.
     """
     best: tuple[float, Arrangement] | None = None
     for room in rooms:
-        for cells in _choices(own, sizes, method, room, gap):
+        for cells in _choices(own, sizes, method, room, gap, beside):
             most = _most(sizes, cells, room, gap)
             chosen = scale if scale is not None else standard_scale(most) if most > 0.0 else 0.0
             # With a scale that is given, the one that has more to spare.
@@ -123,19 +126,41 @@ def arranged(
 
 
 def _choices(
-    own: Sequence[Cell | None], sizes: Sequence[Size], method: ProjectionMethod, room: Room, gap: float
+    own: Sequence[Cell | None],
+    sizes: Sequence[Size],
+    method: ProjectionMethod,
+    room: Room,
+    gap: float,
+    beside: Mapping[int, Cell],
 ) -> Iterator[tuple[Cell, ...]]:
     """Cells of all views: each way to place the first free ones, the better places first; the best for all others."""
     taken = [cell for cell in own if cell is not None]
-    places = [cell for cell in method.free if cell not in taken]
     free = [i for i, cell in enumerate(own) if cell is None]
-    for first in permutations(places, min(len(free), TRIED)):
+    places = {
+        i: [cell for cell in (*_in_line(beside.get(i), len(own)), *method.free) if cell not in taken] for i in free
+    }
+    for first in product(*(dict.fromkeys(places[i]) for i in free[:TRIED])):
+        if len(set(first)) < len(first):
+            continue
         cells = dict(zip(free, first, strict=False)) | {i: cell for i, cell in enumerate(own) if cell is not None}
         for i in free[TRIED:]:
-            left = [cell for cell in places if cell not in cells.values()]
+            left = [cell for cell in places[i] if cell not in cells.values()]
             scales = [_scale([*cells, i], [*cells.values(), cell], sizes, room, gap) for cell in left]
             cells[i] = left[scales.index(max(scales))]
         yield tuple(cells[i] for i in range(len(own)))
+
+
+def _in_line(cell: Cell | None, count: int) -> list[Cell]:
+    """So many cells beyond one, away from the front view: in its row, or in its column above or below the front.
+
+    Behind them those on its two other sides.
+    """
+    if cell is None:
+        return []
+    across, up = cell
+    step = (0, 1 if up > 0 else -1) if up else (-1 if across < 0 else 1, 0)
+    beyond = [(across + k * step[0], up + k * step[1]) for k in range(1, count + 1)]
+    return [*beyond, *((across + k * step[1], up + k * step[0]) for k in (-1, 1))]
 
 
 def _scale(views: Sequence[int], cells: Sequence[Cell], sizes: Sequence[Size], room: Room, gap: float) -> float:

@@ -16,22 +16,22 @@ from hlr.common.types import Floats, Progress
 from hlr.drawing.drawing import Drawing, DrawnPart, DrawnView
 from hlr.drawing.line import Line
 from hlr.drawing.moved import moved
-from hlr.drawing.notes import Note
+from hlr.drawing.notes import Note, of_each_view
 from hlr.drawing.page import Page
 from hlr.drawing.scale import ratio
 from hlr.drawing.sheet import Sheet, SheetView
 from hlr.errors import OptionError
 from hlr.image.arrangement import LEAST_GAP, SLACK, Arrangement, Room, Size, arranged, check_views, inside_margins
-from hlr.image.method_cells import own_cells
+from hlr.image.method_cells import cells_of
 from hlr.image.placement import size_notes
 from hlr.linework.legible import legible
 from hlr.pipeline.draw import draw_views
 from hlr.pipeline.session import Session, refuse_warnings
 from hlr.request.check import checked_views
-from hlr.request.directions import directed
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Planner
 from hlr.request.options import Options, View
+from hlr.request.shown_views import ShownView, shown_views
 from hlr.request.style_file import style_of
 from hlr.source.page_template import PageTemplate, Rectangle
 from hlr.source.selection import open_selected
@@ -98,12 +98,20 @@ class Printed:
 
 @dataclass(frozen=True, slots=True)
 class _Views:
-    """The views of a page. cells: that the method has for each, None for those that lie in any free one."""
+    """The views of a page. cells, beside: as of `hlr.image.arrangement.arranged`."""
 
-    views: Sequence[View]
-    names: Sequence[str]
+    shown: Sequence[ShownView]
     cells: Sequence[Cell | None]
+    beside: Mapping[int, Cell]
     method: ProjectionMethod
+
+    def in_line(self, i: int) -> bool:
+        """Whether a view is in line with those of its row and column that have the same axis there."""
+        return self.cells[i] is not None or self.shown[i].others > 0
+
+    def arranged(self, sizes: Sequence[Size], rooms: Sequence[Room], scale: float | None, gap: float) -> Arrangement:
+        """As of `hlr.image.arrangement.arranged`."""
+        return arranged(self.cells, sizes, self.method, rooms, scale, gap, self.beside)
 
 
 def _on_any(sheets: Sequence[Paper], rectangle: Rectangle) -> list[Room]:
@@ -138,15 +146,16 @@ def draw_on_one_page(
     """
     started = perf_counter()
     views = checked_views(views, options)
-    asked = _Views(views, [directed(view)[0] for view in views], own_cells(views, method), method)
-    check_views(asked.names, asked.cells, method)
-    source = open_selected(source, options)
-    alone = replace(options, details=True, strict=False, same_scale=False)
     if options.section is not None:
         from hlr.request.section import check_sections
 
         check_sections(options.section, views, by_name=True)
-    session = Session(source, views, alone)
+    shown = shown_views(views, options.section)
+    asked = _Views(shown, *cells_of(shown, method), method)
+    check_views([each.name for each in shown], asked.cells, method)
+    source = open_selected(source, options)
+    alone = replace(options, details=True, strict=False, same_scale=False)
+    session = Session(source, [each.view for each in shown], alone)
     reading = perf_counter() - started
     sizes: list[Size] = [(w * at.unit, h * at.unit) for at in session.placements for w, h in [at.size]]
     rooms, gap = printed.rooms(options), LEAST_GAP
@@ -155,19 +164,19 @@ def draw_on_one_page(
 
         rooms, gap = [_inside(room, REACH) for room in rooms], 2.0 * REACH
     scale = None if options.scale is None else float(options.scale)
-    found = arranged(asked.cells, sizes, method, rooms, scale, gap)
+    found = asked.arranged(sizes, rooms, scale, gap)
     for _ in range(MOST_DRAWINGS):
         paper = found.room.paper
         on_page = replace(alone, scale=found.scale, page=(paper.width, paper.height))
         drawings = draw_views(source, views, on_page, progress)
         sizes = _sizes(drawings, found, asked)
-        better = arranged(asked.cells, sizes, method, rooms, scale, gap)
+        better = asked.arranged(sizes, rooms, scale, gap)
         if better.scale <= found.scale:
             break
         found = better
     drawing = _together(drawings, sizes, found, asked, options, printed)
     if scale is not None:
-        fits = arranged(asked.cells, sizes, method, rooms, None, gap).scale
+        fits = asked.arranged(sizes, rooms, None, gap).scale
         drawing = replace(drawing, notes=(*drawing.notes, *_of_scale(sizes, found, fits)))
     if options.strict:
         refuse_warnings(drawing.notes)
@@ -213,7 +222,8 @@ def _together(
     if options.section is not None:
         from hlr.pipeline.section.on_page import section_marks
 
-        marks, marking = section_marks(placed, [cell is not None for cell in asked.cells])
+        letters = {each.name: each.letter for each in sorted(asked.shown, key=lambda each: each.number) if each.letter}
+        marks, marking = section_marks(placed, [cell is not None for cell in asked.cells], letters)
     return Drawing(
         source=drawings[0].source,
         view=DrawnView(asked.method.name, "orthographic", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
@@ -249,7 +259,7 @@ def _extents(drawings: Sequence[Drawing], found: Arrangement, asked: _Views) -> 
     extents: dict[_Axis, tuple[float, float]] = {}
     for i, drawing in enumerate(drawings):
         bounds, view = drawing.bounds, drawing.view
-        if asked.cells[i] is None:
+        if not asked.in_line(i):
             continue
         for k, axis, ends in ((0, view.right, (bounds.x0, bounds.x1)), (1, view.up, (bounds.y0, bounds.y1))):
             low, high = (end + drawing.origin[k] for end in ends)
@@ -265,7 +275,7 @@ def _sizes(drawings: Sequence[Drawing], found: Arrangement, asked: _Views) -> li
         return sizes
     extents = _extents(drawings, found, asked)
     for i, (drawing, cell) in enumerate(zip(drawings, found.cells, strict=True)):
-        if asked.cells[i] is not None:
+        if asked.in_line(i):
             across, up = extents[0, cell[0], drawing.view.right], extents[1, cell[1], drawing.view.up]
             sizes[i] = (across[1] - across[0]) / found.scale, (up[1] - up[0]) / found.scale
     return sizes
@@ -294,15 +304,16 @@ def _placed(drawings: Sequence[Drawing], sizes: Sequence[Size], found: Arrangeme
         axes, bounds = (drawing.view.right, drawing.view.up), drawing.bounds
         for k, (low, high) in enumerate(((bounds.x0, bounds.x1), (bounds.y0, bounds.y1))):
             middle = 0.5 * (low + high) + drawing.origin[k]
-            if asked.cells[i] is not None:
+            if asked.in_line(i):
                 middle = middles.setdefault((k, found.cells[i][k], axes[k]), middle)
             shift.append(place[k] - middle + drawing.origin[k])
-        placed.append(_Placed(drawing, asked.names[i], place, np.array(shift)))
+        placed.append(_Placed(drawing, asked.shown[i].name, place, np.array(shift)))
     return placed
 
 
 def _notes(drawings: Sequence[Drawing]) -> list[Note]:
-    return [note for drawing in drawings for note in drawing.notes if note.code not in OF_ONE_VIEW]
+    notes = [[note for note in drawing.notes if note.code not in OF_ONE_VIEW] for drawing in drawings]
+    return of_each_view([drawing.view.name for drawing in drawings], notes)
 
 
 def _of_scale(sizes: Sequence[Size], found: Arrangement, fits: float) -> list[Note]:

@@ -8,7 +8,7 @@ from typing import Any
 from hlr.common.threads import at_most
 from hlr.common.types import Progress
 from hlr.drawing.drawing import Drawing
-from hlr.drawing.notes import Noted
+from hlr.drawing.notes import Noted, of_each_view
 from hlr.image.paper import at_scale
 from hlr.pipeline.session import Session, refuse_warnings
 from hlr.request.check import checked, checked_views
@@ -22,7 +22,7 @@ def draw_views(
     progress: Progress | None = None,
     noted: Noted | None = None,
 ) -> list[Drawing]:
-    """One drawing per view; the source is read and meshed once.
+    """One drawing per view, or per section of a view that several planes cut; the source is read and meshed once.
 
     source: whatever `hlr.source.open_source` takes. views: names or directions from the object toward the viewer.
     noted: called with the notes on the size of the views as soon as it is known, before the work begins.
@@ -36,21 +36,22 @@ def draw_views(
         if options.section is not None:
             from hlr.pipeline.section.draw import draw_sections
             from hlr.request.section import check_sections
+            from hlr.request.shown_views import shown_views
 
             check_sections(options.section, views)
-            drawings = draw_sections(source, views, options, progress, noted)
+            drawings = draw_sections(source, shown_views(views, options.section), options, progress, noted)
         else:
             drawings = _drawn_whole(Session(source, views, options, progress), views, options, noted)
-    for drawing in drawings:
-        if options.strict:
-            refuse_warnings(drawing.notes)
+    if options.strict:
+        refuse_warnings(of_each_view([each.view.name for each in drawings], [each.notes for each in drawings]))
     return drawings
 
 
 def _drawn_whole(session: Session, views: Sequence[View], options: Options, noted: Noted | None) -> list[Drawing]:
     """Views of a model that no section cuts."""
     if noted is not None:
-        noted([note for placement in session.placements for note in placement.notes])
+        notes = [placement.notes for placement in session.placements]
+        noted(of_each_view([camera.name for camera in session.cameras], notes))
     drawings = []
     for i, (view, draft) in enumerate(zip(views, session.drafts(lines_alone=True), strict=True)):
         session.progress("visibility", i / len(views))

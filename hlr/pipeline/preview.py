@@ -15,7 +15,7 @@ from hlr.common.keywords import expect_record
 from hlr.common.threads import at_most
 from hlr.common.types import Floats, Progress
 from hlr.drawing.drawing import Drawing, DrawnPart
-from hlr.drawing.notes import Note
+from hlr.drawing.notes import Note, of_each_view
 from hlr.drawing.pens import usual_pens
 from hlr.drawing.picture import Picture
 from hlr.image.camera import Camera
@@ -77,6 +77,8 @@ def preview_views(
         for i, draft in enumerate(session.drafts()):
             session.progress("visibility", i / len(views))
             pictures.append(_picture(session, draft, options, background))
+    if options.strict:
+        refuse_warnings(of_each_view([each.view.name for each in pictures], [each.notes for each in pictures]))
     return pictures
 
 
@@ -114,8 +116,6 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
     notes = tuple(dict.fromkeys((*source.notes, *scene.notes, *strays)))
     if facts.depth > facts.pixel and effects.faces:
         notes = (*notes, _coarse(facts))
-    if options.strict:
-        refuse_warnings(notes)
     return Picture(
         source=source.name,
         view=drawn_view(camera),

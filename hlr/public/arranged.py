@@ -51,8 +51,10 @@ def draw_arranged(
               cut. Other views lie in a cell that is free
     options   as of `hlr.draw`, without fit, window, up, perspective, fill, report and within; None: the defaults. The
               scale is the largest standard one at which all views fit the page, unless one is given. Sections are said
-              by their views, {"front": True}: each has its name, A-A, above it, and in a view that sees its plane from
-              the edge a cutting line with arrows and letters
+              by their views, {"front": True}, or as pairs, [("left", 10), ("left", 40)], where several planes cut a
+              view: the first lies in its place, the others beside it or in other free cells, called left-B and so
+              on. Each has its name, A-A, above it, with letters in the order of `section`, and in a view that sees
+              its plane from the edge a cutting line with arrows and letters
     progress  as of `hlr.draw`
     template  an SVG with a frame and a title block, such as those of FreeCAD's TechDraw; it says how large the page is,
               and is printed under the views. None: the symbol of the method in the lower right corner
@@ -79,10 +81,10 @@ def draw_arranged(
     chosen = cast("Sequence[View]", row.usual) if views is None else _listed(views)
     printed = _printed(template, {} if texts is None else texts, room, options)
     with at_most(options.threads):
-        if views is None and isinstance(options.section, Mapping):
-            from hlr.request.section import with_sections
+        if views is None and options.section is not None:
+            from hlr.request.section import by_view, with_sections
 
-            chosen = with_sections(chosen, options.section)
+            chosen = with_sections(chosen, by_view(options.section) or ())
         return draw_on_one_page(source, chosen, row, options, printed, progress)
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 from hlr.common.keywords import expect_record, record_of, shown
 from hlr.common.threads import at_most
+from hlr.errors import OptionError
 from hlr.pipeline.draw import draw_views as drawn_once
 from hlr.request.check import checked, checked_views
 from hlr.request.options import Options, View, Wishes
@@ -27,7 +28,7 @@ def draw_views(
     progress: Progress | None = None,
     noted: Noted | None = None,
 ) -> list[Drawing]:
-    """One drawing per view; the source is read and meshed once.
+    """One drawing per view, or per section of a view that several planes cut; the source is read and meshed once.
 
     source    as of `draw`
     views     names or directions, as of `draw`
@@ -96,7 +97,13 @@ def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, *
     Traceback (most recent call last):
     hlr.errors.OptionError: scale -1 cannot be drawn: give a positive number or a ratio, 0.5 or 1:2.
     """
-    return draw_views(source, [view], record_of(Options, options, "draw"), progress)[0]
+    asked = record_of(Options, options, "draw")
+    if asked.section is not None:
+        from hlr.request.section import by_view, checked_section
+
+        if len(by_view(checked_section(asked.section)) or ()) > 1:
+            raise OptionError("one drawing is cut once: draw several sections with draw_views, or draw_arranged")
+    return draw_views(source, [view], asked, progress)[0]
 
 
 def with_report(source: Any, drawing: Drawing, progress: Progress | None = None) -> Drawing:

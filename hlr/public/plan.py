@@ -32,7 +32,7 @@ class ViewPlan:
 def plan_views(
     source: Any, views: Sequence[View], options: Options | None = None, progress: Progress | None = None
 ) -> list[ViewPlan]:
-    """One plan per view, of the drawing that `hlr.draw_views` would make of the same arguments.
+    """One plan per view, or section of a view, of the drawing that `hlr.draw_views` would make of the same arguments.
 
     For a section the model is cut: the plan is that of what its plane leaves, and says how many parts it cuts.
 
@@ -50,8 +50,8 @@ def plan_views(
         return []
     found: dict[int, ViewPlan] = {}
     with at_most(options.threads):
-        for numbers, session, drafts in _groups(source, views, options, progress):
-            for number, draft in zip(numbers, drafts, strict=True):
+        for names, session, drafts in _groups(source, views, options, progress):
+            for (number, name), draft in zip(names.items(), drafts, strict=True):
                 image = session.shown(draft)
                 draft.planner.on("window")
                 if options.window is not None:
@@ -59,25 +59,28 @@ def plan_views(
                         flat = image.projected()[:, :2] * image.placement.per_model
                     decide_cut(flat, Bounds(*options.window), draft.planner)
                 session.plan(draft, image)
-                found[number] = ViewPlan(image.camera.name, draft.planner.decisions())
-    return [found[number] for number in range(len(views))]
+                found[number] = ViewPlan(name, draft.planner.decisions())
+    return [found[number] for number in range(len(found))]
 
 
 def _groups(
     source: Any, views: Sequence[View], options: Options, progress: Progress | None
-) -> Iterator[tuple[Sequence[int], Session, list[Draft]]]:
-    """What is drawn of the source and of what sections leave of it: numbers of views, and their drafts."""
+) -> Iterator[tuple[dict[int, str], Session, list[Draft]]]:
+    """What is drawn of the source and of what sections leave of it: numbers and names of views, and their drafts."""
     if options.section is None:
         session = Session(source, views, options, progress)
-        yield range(len(views)), session, session.drafts(lines_alone=True)
+        names = {number: camera.name for number, camera in enumerate(session.cameras)}
+        yield names, session, session.drafts(lines_alone=True)
         return
     from hlr.pipeline.section.draw import groups_of
     from hlr.request.section import check_sections
+    from hlr.request.shown_views import shown_views
     from hlr.source.selection import open_selected
 
     check_sections(options.section, views)
-    for group in groups_of(open_selected(source, options), views, options, progress):
-        yield group.numbers, group.session, group.drafts()
+    shown = shown_views(views, options.section)
+    for group in groups_of(open_selected(source, options), shown, options, progress):
+        yield {number: shown[number].name for number in group.numbers}, group.session, group.drafts()
 
 
 __all__ = ["ViewPlan", "plan_views"]

@@ -27,8 +27,8 @@ Steps = tuple[float | tuple[float, float], ...]
 SectionPlace = bool | float | Vector | Steps
 """Where a view is cut: True for the middle, a coordinate, a point on the plane, or steps (`hlr.request.section`)."""
 
-SectionLike = SectionPlace | Mapping[str, SectionPlace]
-"""Where all views are cut, or some of them, by name."""
+SectionLike = SectionPlace | Mapping[str, SectionPlace] | Sequence[tuple[str, SectionPlace]]
+"""Where all views are cut, or some of them, by name; pairs where several planes cut one view."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,8 @@ class Options:
                  model; a number, the coordinate on the axis that the view looks along; a point on the plane; or
                  (12.5, (30, 40)) where the plane steps: at 12.5, and from 30 on, on the axis across the view, at 40;
                  all in millimetres in the world, as an eye; or these by the names of the views that are cut:
-                 {"front": True, "left": 12.5}. Cut faces are hatched
+                 {"front": True, "left": 12.5}; or pairs of a view and its place, where several planes cut one view:
+                 [("left", 12.5), ("left", 40)], of which each is a drawing. Cut faces are hatched
     uncut        patterns of parts that sections leave whole, as bolts, shafts and ribs are by custom
     up           the direction that points up on paper; None: the named view's own, else z (y for views along z)
     perspective  None: orthographic

@@ -4,7 +4,8 @@ A section is said by a place: True for the middle of the model; a number for the
 axis is cut, x for left and right, y for front and back, z for top and bottom; or a point on the plane. A plane may
 step: (12.5, (30, 40)) lies at 12.5, and from 30 on at 40. It steps along the axis that runs across the view: x for
 front, back, top and bottom, y for left and right. Lengths are millimetres in the world (z up), as those of an eye. One
-place is for all views; a mapping says a place for each of the views that it names, and the others are not cut.
+place is for all views; a mapping says a place for each of the views that it names, and the others are not cut. Pairs of
+a view and a place may name a view several times: it is drawn once for each (`hlr.request.shown_views`).
 """
 
 from __future__ import annotations
@@ -23,21 +24,39 @@ from hlr.tables.entry import listed
 FARTHEST = 1e12
 """Millimetres: of a plane, in any coordinate."""
 
+_PAIR = 2
+"""A view and a place."""
 
-def checked_section(section: Any) -> SectionPlace | dict[str, SectionPlace] | None:
+
+ByView = tuple[tuple[str, SectionPlace], ...]
+"""Names of views and where they are cut, in the order in which that was asked for."""
+
+
+def checked_section(section: Any) -> SectionPlace | dict[str, SectionPlace] | ByView | None:
     """What was asked for in its one form: None, a place, or places by the names of views.
 
-    Raises OptionError that says what is allowed.
+    The latter are pairs where a view is cut several times, else a dictionary. Raises OptionError that says what is
+    allowed.
     """
+    given = list(section.items()) if isinstance(section, Mapping) else _pairs(section)
+    if given is None:
+        return _place(section)
+    places = ((_name(view), _place(place)) for view, place in given)
+    found = [(view, place) for view, place in places if place is not None]
+    # True and 1.0 are equal.
+    keys = [(view, place is True, place) for view, place in found]
+    if twice := next((key for key in keys if keys.count(key) > 1), None):
+        view, _, place = twice
+        raise OptionError(f"section {view}{_told(place)} is asked for twice: give each plane once")
+    names = [view for view, _ in found]
+    return (dict(found) or None) if len(set(names)) == len(names) else tuple(found)
+
+
+def by_view(section: Any) -> ByView | None:
+    """Where views are cut, by their names; None: nothing is cut, or one place is for all views. section: checked."""
     if isinstance(section, Mapping):
-        found = {_name(view): _place(place) for view, place in section.items()}
-        return {view: place for view, place in found.items() if place is not None} or None
-    return _place(section)
-
-
-def place_of(section: Any, view: View) -> SectionPlace | None:
-    """Where a view is cut; None: it is not. section: checked."""
-    return section.get(directed(view)[0]) if isinstance(section, Mapping) else section
+        return tuple(section.items())
+    return section if isinstance(section, tuple) and isinstance(section[0], tuple) else None
 
 
 def check_sections(section: Any, views: Sequence[View], *, by_name: bool = False) -> None:
@@ -48,14 +67,14 @@ def check_sections(section: Any, views: Sequence[View], *, by_name: bool = False
     if section is None:
         return
     names = [directed(view)[0] for view in views]
-    if isinstance(section, Mapping):
-        if unknown := [name for name in section if name not in names]:
+    if (places := by_view(section)) is not None:
+        if unknown := [name for name, _ in places if name not in names]:
             raise OptionError(f"section {unknown[0]} is none of the views, {listed(names, 'and')}: add it to them")
     elif by_name:
         raise OptionError('a page of several views has sections by name: give {"front": True}, not one for all')
-    for view, name in zip(views, names, strict=True):
-        place = place_of(section, view)
-        if place is None or isinstance(place, bool) or not pictorial(directed(view)[1]):
+    directions = {name: directed(view)[1] for view, name in zip(views, names, strict=True)}
+    for name, place in places if places is not None else [(name, section) for name in names]:
+        if isinstance(place, bool) or not pictorial(directions[name]):
             continue
         if is_stepped(place):
             raise OptionError(f"section {name}: planes step in views along an axis alone, such as front")
@@ -66,10 +85,11 @@ def check_sections(section: Any, views: Sequence[View], *, by_name: bool = False
             )
 
 
-def with_sections(views: Sequence[View], section: Mapping[str, SectionPlace]) -> tuple[View, ...]:
-    """The views, and after them those that are cut and are not among them. section: checked."""
+def with_sections(views: Sequence[View], places: ByView) -> tuple[View, ...]:
+    """The views, and after them those that are cut and are not among them."""
     names = [directed(view)[0] for view in views]
-    return (*views, *(cast(View, _vector(name) if "," in name else name) for name in section if name not in names))
+    more = dict.fromkeys(name for name, _ in places if name not in names)
+    return (*views, *(cast(View, _vector(name) if "," in name else name) for name in more))
 
 
 def is_stepped(place: Any) -> TypeGuard[Steps]:
@@ -80,6 +100,27 @@ def is_stepped(place: Any) -> TypeGuard[Steps]:
 def axis_of(direction: Vector) -> int | None:
     """The axis that a direction lies along: 0, 1 or 2; None: it lies along none."""
     return None if pictorial(direction) else max(range(3), key=lambda k: abs(direction[k]))
+
+
+def _pairs(section: Any) -> list[tuple[Any, Any]] | None:
+    """Pairs of a view and a place; None: these are none."""
+    pairs = list(section) if isinstance(section, list | tuple) else []
+    if not pairs or not all(isinstance(pair, list | tuple) and len(pair) == _PAIR for pair in pairs):
+        return None
+    # A step is a pair of numbers.
+    if not any(isinstance(view, str | list | tuple) for view, _ in pairs):
+        return None
+    return [(view, place) for view, place in pairs]
+
+
+def _told(place: SectionPlace) -> str:
+    """A place as the command line has it."""
+    if place is True:
+        return ""
+    if is_stepped(place):
+        first, *steps = place
+        return f"@{first:g}," + ",".join(f"{a:g}:{b:g}" for a, b in cast("list[tuple[float, float]]", steps))
+    return "@" + ",".join(f"{c:g}" for c in (place if isinstance(place, tuple) else (place,)))
 
 
 def _name(view: Any) -> str:

@@ -20,6 +20,9 @@ from hlr.writers.revive import revived
 
 Pair = tuple[float, float]
 
+_ENDS = 2
+"""Of a cutting line, which may have corners between them."""
+
 
 def drawing_of_page(document: dict[str, Any], name: str) -> Drawing:
     """The page in a document. name: of its file, for errors. Raises KeyError, ValueError, SourceError."""
@@ -75,9 +78,11 @@ def _mark(entry: dict[str, Any], what: str) -> SectionMark:
     mark = SectionMark(
         _letter(entry["letter"], what),
         revived(Pair, entry["place"], f"{what}.place"),
-        revived(tuple[Pair, Pair] | None, entry["line"], f"{what}.line"),
+        revived(tuple[Pair, ...] | None, entry["line"], f"{what}.line"),
         revived(Pair, entry["back"], f"{what}.back"),
     )
+    if mark.line is not None and len(mark.line) < _ENDS:
+        raise ValueError(f"{what}.line should have two ends")
     _finite((*mark.name, *mark.back, *(x for end in mark.line or () for x in end)), what)
     return mark
 

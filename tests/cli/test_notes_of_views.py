@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from hlr.cli.telling import of_views
-from hlr.drawing.notes import Note
+from hlr.drawing.notes import Note, of_each_view
 from support.drawings import drawing, line
 
 SHOWN = Note("script-shape", 'a.py: the variable "result" is drawn.')
@@ -40,7 +40,10 @@ def test_what_is_said_of_the_model_or_of_a_section_names_no_view():
 
 
 def test_what_is_told_already_is_not_told_again():
-    assert texts(drawn("front", SHOWN, FEW), drawn("top", SHOWN), told=[FEW]) == [SHOWN.text]
+    early = of_each_view(["front", "top"], [[FEW], []])
+    assert texts(drawn("front", SHOWN, FEW), drawn("top", SHOWN), told=early) == [SHOWN.text]
+    early = of_each_view(["front", "top"], [[FEW], [FEW]])
+    assert texts(drawn("front", SHOWN, FEW), drawn("top", FEW), told=early) == [f"view front: {SHOWN.text}"]
     (note,) = of_views([drawn("front", FEW), drawn("top")])
     assert note.code == FEW.code
 

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 import hlr
-from hlr.drawing.section_marks import BEYOND, JOG, LETTERS, REACH, SectionMark, letter_of, shapes_of
+from hlr.drawing.section_marks import BEYOND, JOG, REACH, SectionMark, shapes_of
 from hlr.errors import OptionError
+from hlr.request.shown_views import LETTERS, letter_of
 
 
 def bracket():

@@ -5,7 +5,8 @@ import pytest
 
 import hlr
 from hlr.request.check import checked
-from hlr.request.section import check_sections, place_of
+from hlr.request.section import by_view, check_sections, with_sections
+from hlr.request.shown_views import shown_views
 
 
 def form(section):
@@ -27,6 +28,13 @@ def form(section):
         ({"Front ": True, "left": 3}, {"front": True, "left": 3.0}),
         ({"front": False}, None),
         ({"1,-1,0": (1, 2, 3), (0, 0, 2): True}, {"1,-1,0": (1.0, 2.0, 3.0), "0,0,2": True}),
+        ([("Front", 3), ["left", True], ("top", None)], {"front": 3.0, "left": True}),
+        (
+            [["left", 3], ["front", [5, [30, 40]]], ["left", 1]],
+            (("left", 3.0), ("front", (5.0, (30.0, 40.0))), ("left", 1.0)),
+        ),
+        ((((0, 0, 2), 1), ((0, 0, 2), True)), (("0,0,2", 1.0), ("0,0,2", True))),
+        ([("left", None)], None),
     ],
 )
 def test_a_section_has_one_form(given, found):
@@ -44,6 +52,9 @@ def test_a_section_has_one_form(given, found):
         (1, (2, "x")),
         (1,),
         (),
+        ("front", 3),
+        [("front", 3), 4],
+        [("front", 3, 4)],
         (1, 2, "x"),
         float("nan"),
         1e13,
@@ -81,9 +92,46 @@ def test_parts_are_left_whole_in_sections_only():
 
 
 def test_one_place_is_for_all_views_and_a_mapping_for_those_that_it_names():
-    assert place_of(3.0, "front") == place_of({"front": 3.0}, "front") == 3.0
-    assert place_of({"front": 3.0}, "top") is None
-    assert place_of({"0,0,2": True}, (0, 0, 2)) is True
+    def places(section, *views):
+        return [each.place for each in shown_views(views, section)]
+
+    assert places(3.0, "front", "top") == [3.0, 3.0]
+    assert places({"front": 3.0}, "front", "top") == [3.0, None]
+    assert places({"0,0,2": True}, (0, 0, 2)) == [True]
+    assert places(None, "front") == [None]
+
+
+def test_a_view_is_drawn_once_for_each_of_its_planes_and_each_has_a_name_and_a_letter():
+    section = form([("left", 3), ("front", 1), ("left", 5), ("top", 0), ("left", True)])
+    shown = shown_views(["front", "left", "iso", "top"], section)
+    assert [(each.name, each.view, each.place, each.letter) for each in shown] == [
+        ("front", "front", 1.0, "B"),
+        ("left", "left", 3.0, "A"),
+        ("left-C", "left", 5.0, "C"),
+        ("left-E", "left", True, "E"),
+        ("iso", "iso", None, ""),
+        ("top", "top", 0.0, "D"),
+    ]
+    assert [each.is_further for each in shown] == [False, False, True, True, False, False]
+
+
+def test_views_that_are_cut_twice_are_added_once():
+    places = by_view(form([("left", 3), ((1, -1, 0), (0, 0, 0)), ("left", 5)]))
+    assert with_sections(["front"], places) == ("front", "left", (1.0, -1.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("section", "told"),
+    [
+        ([("front", 3), ("left", 3), ("front", 3.0)], "front@3"),
+        ([("front", True), ("FRONT", True)], "front"),
+        ([("iso", (0, 1, 2.5))] * 2, "iso@0,1,2.5"),
+        ([("front", (3, (4, 5), (6, 7)))] * 2, "front@3,4:5,6:7"),
+    ],
+)
+def test_a_plane_is_given_once(section, told):
+    with pytest.raises(hlr.OptionError, match=f"^section {told} is asked for twice: give each plane once"):
+        form(section)
 
 
 @pytest.mark.parametrize(
@@ -92,6 +140,8 @@ def test_one_place_is_for_all_views_and_a_mapping_for_those_that_it_names():
         ({"left": True}, ["front", "top"], False, "section left is none of the views, front and top: add it to them"),
         (3.0, ["front", "iso"], False, "section iso at 3: the view looks along no axis, so give a point on its plane"),
         ({"1,1,0": 3.0}, [(1, 1, 0)], False, "section 1,1,0 at 3: the view looks along no axis"),
+        ((("iso", (0.0, 0.0, 0.0)), ("iso", 3.0)), ["iso"], True, "section iso at 3: the view looks along no axis"),
+        ((("left", 1.0), ("left", 3.0)), ["front"], True, "section left is none of the views, front: add it to them"),
         (True, ["front", "top"], True, "a page of several views has sections by name"),
     ],
 )

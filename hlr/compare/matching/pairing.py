@@ -1,12 +1,17 @@
-"""Which view of one page is which of another: by their names, or else by where they lie."""
+"""Which view of one page is which of another: by their names, or else by where they lie.
+
+Several sections of one view are told apart by their lines: what each is called depends on how many there are.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from hlr.compare.lines.pieces import Floats, Pieces
+from hlr.compare.matching.sections import base_of, likeness, paired_sections, sections_of
 from hlr.compare.reading.sides import Side
 
 _NEAR = 0.5
@@ -46,27 +51,49 @@ def with_views_of(side: Side, other: Side) -> Side:
     return replace(side, pieces=replace(side.pieces, view=near[number]), about=about)
 
 
-def with_stated_view(side: Side, other: Side) -> Side:
-    """A drawing of one view that it states, as the view of that name where the other side is a page that has it."""
+def with_stated_view(side: Side, other: Side, tolerance_mm: float) -> Side:
+    """A drawing of one view that it states, as the view of that name where the other side is a page that has it.
+
+    Where that has several sections of the view, it is the one that the drawing is most like.
+    """
     stated = side.about.stated
-    if side.about.views or stated is None or stated.name not in other.about.views:
+    views = other.about.views
+    if side.about.views or stated is None:
+        return side
+    name, lines = stated.name, other.pieces
+    sections = [name] if name in views else []
+    if len(numbers := sections_of(base_of(name), views)) > 1:
+        alike = {k: likeness(side.pieces, lines.take(lines.view == k), tolerance_mm) for k in numbers}
+        sections = [views[max(numbers, key=lambda k: (alike[k], views[k] == name))]]
+    if not sections:
         return side
     pieces = replace(side.pieces, view=np.zeros_like(side.pieces.view))
-    return replace(side, pieces=pieces, about=replace(side.about, views=(stated.name,)))
+    return replace(side, pieces=pieces, about=replace(side.about, views=tuple(sections)))
 
 
-def pairs_of(before: Side, after: Side) -> list[Pair]:
+def pairs_of(before: Side, after: Side, tolerance_mm: float) -> list[Pair]:
     """Each view of either page once, in the order of the first page; then lines that belong to none."""
     one, other = before.about.views, after.about.views
     ours = other if before.about.foreign and not after.about.foreign else one
-    found = {i: other.index(name) for i, name in enumerate(one) if name in other} or _by_place(before, after)
+    sections = paired_sections((one, before.pieces), (other, after.pieces), tolerance_mm)
+    by_name = {i: other.index(name) for i, name in enumerate(one) if name in other}
+    if sections:
+        bases = {base_of(one[i]) for i in sections}
+        by_name = {i: j for i, j in by_name.items() if base_of(one[i]) not in bases} | sections
+    found = by_name or _by_place(before, after)
     pairs = [
-        Pair(name if i not in found or ours is one else other[found[i]], i, found.get(i)) for i, name in enumerate(one)
+        Pair(_name(name if i not in found or ours is one else other[found[i]], i, sections, other), i, found.get(i))
+        for i, name in enumerate(one)
     ]
     pairs += [Pair(name, None, j) for j, name in enumerate(other) if j not in found.values()]
     if (before.pieces.view < 0).any() or (after.pieces.view < 0).any():
         pairs.append(Pair(BESIDE, -1, -1))
     return pairs
+
+
+def _name(name: str, i: int, sections: Mapping[int, int], other: Sequence[str]) -> str:
+    """What a pair is called; sections of one view may have another name on each page."""
+    return f"{name} / {other[sections[i]]}" if i in sections and other[sections[i]] != name else name
 
 
 def view_of(side: Side, pair: Pair, number: int | None) -> Side:

@@ -36,7 +36,7 @@ def by_view(
         after, whole = _laid_on(before, after, tolerance_mm)
     before, after = with_views_of(before, after), with_views_of(after, before)
     findings, lines, rows = [], [], []
-    for pair in pairs_of(before, after):
+    for pair in pairs_of(before, after, tolerance_mm):
         a, b = view_of(before, pair, pair.before), view_of(after, pair, pair.after)
         shift: Shift | None = None
         if register and len(a.pieces) and len(b.pieces):

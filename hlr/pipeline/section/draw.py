@@ -13,7 +13,7 @@ import numpy as np
 from hlr.common.clock import lap
 from hlr.common.types import Progress
 from hlr.drawing.drawing import Drawing
-from hlr.drawing.notes import OF_BORDERS, Note, Noted
+from hlr.drawing.notes import OF_BORDERS, Note, Noted, of_each_view
 from hlr.errors import counted
 from hlr.image.paper import at_scale
 from hlr.pipeline.section.hatches import with_hatches
@@ -22,8 +22,8 @@ from hlr.pipeline.section.sources import CutSource, cut_source
 from hlr.pipeline.session import Draft, Session
 from hlr.request.directions import directed
 from hlr.request.effect import Facts
-from hlr.request.options import Options, Request, View
-from hlr.request.section import place_of
+from hlr.request.options import Options, Request
+from hlr.request.shown_views import ShownView
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.mesh.mesh_source import MeshSource
 from hlr.source.model import Source
@@ -70,31 +70,33 @@ _KNOWN: WeakKeyDictionary[Source, dict[Any, _Cut]] = WeakKeyDictionary()
 
 def draw_sections(
     source: Any,
-    views: Sequence[View],
+    views: Sequence[ShownView],
     options: Options,
     progress: Progress | None = None,
     noted: Noted | None = None,
 ) -> list[Drawing]:
-    """One drawing per view, as `hlr.pipeline.draw.draw_views`; options.section says which of them are cut.
+    """One drawing per view, as `hlr.pipeline.draw.draw_views`, some of them cut.
 
-    views, options: checked. Raises as that, and OptionError where a plane cuts nothing or leaves nothing.
+    options: checked. Raises as that, and OptionError where a plane cuts nothing or leaves nothing.
     """
     opened = open_selected(source, options)
     groups = groups_of(opened, views, options, progress)
     if noted is not None:
-        noted(
-            [note for group in groups for placement in group.session.placements for note in placement.notes]
-            + [note for group in groups if group.cut for note in _failed(views[group.numbers[0]], group.cut)]
-        )
+        early: list[list[Note]] = [[] for _ in views]
+        for group in groups:
+            for k, placement in zip(group.numbers, group.session.placements, strict=True):
+                failed = [] if group.cut is None else _failed(views[k].name, group.cut)
+                early[k] = [*placement.notes, *failed]
+        noted(of_each_view([view.name for view in views], early))
     found: dict[int, Drawing] = {}
     for group in groups:
         session, cut = group.session, group.cut
         for k, draft in zip(group.numbers, group.drafts(), strict=True):
             session.progress("visibility", len(found) / len(views))
             scale = draft.image.placement.scale
-            asked = at_scale(options, scale) if options.same_scale else options
-            drawing = session.drawing(draft, Request(views[k], asked))
-            found[k] = drawing if cut is None else _finished(drawing, session, cut, opened, views[k])
+            asked = _of_one(at_scale(options, scale) if options.same_scale else options, views[k])
+            drawing = session.drawing(draft, Request(views[k].view, asked))
+            found[k] = drawing if cut is None else _finished(drawing, session, cut, opened, views[k].name)
     drawings = [found[k] for k in range(len(views))]
     least = min(drawing.scale for drawing in drawings)
     if options.same_scale and any(drawing.scale > least for drawing in drawings):
@@ -105,7 +107,7 @@ def draw_sections(
 
 
 def groups_of(
-    opened: Source, views: Sequence[View], options: Options, progress: Progress | None = None
+    opened: Source, views: Sequence[ShownView], options: Options, progress: Progress | None = None
 ) -> list[ViewGroup]:
     """What is drawn of a source and of what planes leave of it. Raises as `draw_sections`."""
     if progress is not None:
@@ -115,17 +117,17 @@ def groups_of(
     groups: list[ViewGroup] = []
     if plain:
         alone = replace(options, section=None)
-        groups.append(ViewGroup(plain, Session(opened, [views[k] for k in plain], alone, progress), None))
+        groups.append(ViewGroup(plain, Session(opened, [views[k].view for k in plain], alone, progress), None))
     for k, cut in enumerate(cuts):
         if cut is not None:
-            session = Session(cut.source.source, [views[k]], _of_section(options), progress)
+            session = Session(cut.source.source, [views[k].view], _of_section(options), progress)
             session.clock["source"] += cut.seconds
             groups.append(ViewGroup([k], session, cut))
     return groups
 
 
-def _cut_for(view: View, source: Source, options: Options) -> _Cut | None:
-    place = place_of(options.section, view)
+def _cut_for(shown: ShownView, source: Source, options: Options) -> _Cut | None:
+    view, place = shown.view, shown.place
     if place is None:
         return None
     known = _KNOWN.setdefault(source, {}) if isinstance(source, BrepSource | MeshSource) else {}
@@ -147,14 +149,18 @@ def _of_section(options: Options) -> Options:
     return replace(options, hidden=bool(options.hidden))
 
 
-def _finished(drawing: Drawing, session: Session, cut: _Cut, whole: Source, view: View) -> Drawing:
+def _of_one(options: Options, shown: ShownView) -> Options:
+    """The options of a view by itself."""
+    return replace(options, section=shown.place, uncut=() if shown.place is None else options.uncut)
+
+
+def _finished(drawing: Drawing, session: Session, cut: _Cut, whole: Source, name: str) -> Drawing:
     """The drawing with its hatches, and what is to be said about them."""
     started, clock = perf_counter(), dict(drawing.timings)
     drawing = with_hatches(drawing, session, cut.planes, cut.source, whole)
-    name = directed(view)[0]
     told = (_after_cut(note, name) for note in drawing.notes) if cut.source.cut else drawing.notes
-    notes = *told, *_failed(view, cut), *_notes(drawing, session, cut, name)
-    drawing = replace(drawing, notes=notes)
+    notes = *told, *_failed(name, cut), *_notes(drawing, session, cut, name)
+    drawing = replace(drawing, notes=notes, view=replace(drawing.view, name=name))
     lap(clock, "linework", started)
     clock["total"] = sum(seconds for stage, seconds in clock.items() if stage != "total")
     return replace(drawing, timings=clock)
@@ -165,7 +171,7 @@ def _after_cut(note: Note, name: str) -> Note:
     return replace(note, text=f"section {name}, after the cut: {note.text}") if note.code in OF_BORDERS else note
 
 
-def _failed(view: View, cut: _Cut) -> list[Note]:
+def _failed(name: str, cut: _Cut) -> list[Note]:
     """What is said of the parts that OpenCASCADE cannot cut, one note for each reason."""
     reasons: dict[tuple[str, str], list[str]] = {}
     for part, error in cut.source.failed.items():
@@ -174,7 +180,7 @@ def _failed(view: View, cut: _Cut) -> list[Note]:
     for (why, cure), parts in reasons.items():
         more = f" ({counted(len(parts) - 1, 'more part')} likewise)" if len(parts) > 1 else ""
         text = f'"{parts[0]}" stays whole, because {why}{more}: {cure}, or name it in uncut.'
-        notes.append(Note("section-not-cut", f"section {directed(view)[0]}: {text}"))
+        notes.append(Note("section-not-cut", f"section {name}: {text}"))
     return notes
 
 

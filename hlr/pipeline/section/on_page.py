@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Protocol
 
@@ -12,7 +12,7 @@ from hlr.common.types import Floats
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.lines import bounds_of
 from hlr.drawing.notes import Note
-from hlr.drawing.section_marks import ABOVE, BEYOND, SectionMark, letter_of, shapes_of
+from hlr.drawing.section_marks import ABOVE, BEYOND, SectionMark, shapes_of
 from hlr.drawing.view_marks import LETTER, Point
 
 EDGE_ON = 1e-6
@@ -45,16 +45,20 @@ class OnPage(Protocol):
         """Millimetres."""
 
 
-def section_marks(views: Sequence[OnPage], own: Sequence[bool]) -> tuple[dict[str, SectionMark], list[Note]]:
+def section_marks(
+    views: Sequence[OnPage], own: Sequence[bool], letters: Mapping[str, str]
+) -> tuple[dict[str, SectionMark], list[Note]]:
     """The mark of each section, by the name of its view, and what is said about them.
 
     own: of each view, whether it has its own place on the page, as those along the axes have
+    letters: of the sections, by the names of their views, in the order of the marks
     """
     marks: dict[str, SectionMark] = {}
     notes = []
-    sections = [view for view in views if view.drawing.section is not None]
+    named = {view.name: view for view in views}
+    sections = [named[name] for name in letters]
     for view in sections:
-        letter = letter_of(len(marks))
+        letter = letters[view.name]
         base = _base_of(view, views, own)
         line = None if base is None else _line(view, base)
         marks[view.name] = SectionMark(letter, _name_place(view), *(line or ()))
@@ -62,8 +66,7 @@ def section_marks(views: Sequence[OnPage], own: Sequence[bool]) -> tuple[dict[st
             text = f"no view of the page sees the plane of section {letter}-{letter} from its edge: none marks it."
             notes.append(Note("section-not-marked", text))
     ink = np.concatenate([np.zeros((0, 2)), *(_ink(mark) for mark in marks.values())])
-    named = {view.name: replace(marks[view.name], name=_clear_of(ink, marks[view.name])) for view in sections}
-    return named, notes
+    return {name: replace(mark, name=_clear_of(ink, mark)) for name, mark in marks.items()}, notes
 
 
 def _base_of(view: OnPage, views: Sequence[OnPage], own: Sequence[bool]) -> OnPage | None:
