@@ -90,7 +90,9 @@ def preview(
         if explain:
             from hlr.request.effect import explained
 
-            say(*"\n\n".join(explained(picture.plan) for picture in pictures).split("\n"))
+            several = len(pictures) > 1
+            tables = [(f"{each.view.name}\n" if several else "") + explained(each.plan) for each in pictures]
+            say(*"\n\n".join(tables).split("\n"))
         place(_encoded(pictures, targets, out.put))
     for picture, row in zip(pictures, targets, strict=True):
         where = ", ".join(str(target) for target in row.values())

@@ -26,6 +26,9 @@ ABOVE = 3.0
 REACH = BEYOND + 1.5 * LETTER
 """Millimetres from a view to the farthest point of its marks."""
 
+FARTHER = 9.0
+"""Millimetres by which an end of a cutting line goes farther where its arrow would lie over the end beside it."""
+
 JOG = 2.5
 """Millimetres: how long a cutting line is thick on both sides of a corner, where it jogs."""
 

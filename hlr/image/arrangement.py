@@ -103,13 +103,15 @@ def arranged(
 
     Raises OptionError for a page without room for the views.
     """
-    best: tuple[float, Arrangement] | None = None
+    best: tuple[tuple[float, int], Arrangement] | None = None
     for room in rooms:
         for cells in _choices(own, sizes, method, room, gap, beside):
             most = _most(sizes, cells, room, gap)
             chosen = scale if scale is not None else standard_scale(most) if most > 0.0 else 0.0
             # With a scale that is given, the one that has more to spare.
-            rank = most if scale is not None else chosen
+            rank = (most if scale is not None else chosen), 0
+            if beside:
+                rank = min(most, chosen), sum(_are_in_line(cells[i], cell) for i, cell in beside.items())
             if chosen > 0.0 and (best is None or rank > best[0]):
                 best = rank, Arrangement(chosen, room, cells, gap)
     if best is None:
@@ -161,6 +163,10 @@ def _in_line(cell: Cell | None, count: int) -> list[Cell]:
     step = (0, 1 if up > 0 else -1) if up else (-1 if across < 0 else 1, 0)
     beyond = [(across + k * step[0], up + k * step[1]) for k in range(1, count + 1)]
     return [*beyond, *((across + k * step[1], up + k * step[0]) for k in (-1, 1))]
+
+
+def _are_in_line(one: Cell, other: Cell) -> bool:
+    return one[0] == other[0] or one[1] == other[1]
 
 
 def _scale(views: Sequence[int], cells: Sequence[Cell], sizes: Sequence[Size], room: Room, gap: float) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -46,6 +47,13 @@ OF_ONE_VIEW = {"page-too-small", "paper-size"}
 
 MOST_DRAWINGS = 2
 """Views that turn out smaller than was foreseen are drawn once more if they fit at a larger scale."""
+
+
+_CLOSE = Note(
+    "section-marks-close",
+    "cutting lines are so close together that their marks have no room side by side: give a larger page, or a larger "
+    "scale.",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,6 +105,14 @@ class Printed:
 
 
 @dataclass(frozen=True, slots=True)
+class _Spacing:
+    """Where views may lie, and the least gap between them, millimetres."""
+
+    rooms: Sequence[Room]
+    gap: float
+
+
+@dataclass(frozen=True, slots=True)
 class _Views:
     """The views of a page. cells, beside: as of `hlr.image.arrangement.arranged`."""
 
@@ -109,9 +125,39 @@ class _Views:
         """Whether a view is in line with those of its row and column that have the same axis there."""
         return self.cells[i] is not None or self.shown[i].others > 0
 
-    def arranged(self, sizes: Sequence[Size], rooms: Sequence[Room], scale: float | None, gap: float) -> Arrangement:
+    def arranged(self, sizes: Sequence[Size], spacing: _Spacing, scale: float | None) -> Arrangement:
         """As of `hlr.image.arrangement.arranged`."""
-        return arranged(self.cells, sizes, self.method, rooms, scale, gap, self.beside)
+        return arranged(self.cells, sizes, self.method, spacing.rooms, scale, spacing.gap, self.beside)
+
+    def spacing(self, rooms: Sequence[Room], farther: float = 0.0) -> _Spacing:
+        """Rooms on pages, less what the marks of sections need there, which go so much farther out than usual."""
+        if not any(each.letter for each in self.shown):
+            return _Spacing(rooms, LEAST_GAP)
+        from hlr.drawing.section_marks import REACH
+
+        return _Spacing([_inside(room, REACH + farther) for room in rooms], 2.0 * REACH + farther)
+
+    def spread(
+        self, found: Arrangement, sizes: Sequence[Size], drawings: Sequence[Drawing], rooms: Sequence[Room]
+    ) -> tuple[Arrangement, int, list[Note]]:
+        """The arrangement with more room for marks that are close together, where the scale allows that.
+
+        Behind it how far these go out, as of `hlr.pipeline.section.on_page.end_levels`, and what is said about it.
+        """
+        if not any(each.is_further for each in self.shown):
+            return found, 0, []
+        from hlr.drawing.section_marks import FARTHER
+        from hlr.pipeline.section.on_page import end_levels
+
+        sections = [drawing for drawing in drawings if drawing.section is not None]
+        most = max(level for ends in end_levels(sections) for level in ends)
+        for level in range(most, 0, -1):
+            spacing = self.spacing([room for room in rooms if room.paper == found.room.paper], FARTHER * level)
+            with suppress(OptionError):
+                needs = (spread := self.arranged(sizes, spacing, found.scale)).needs(sizes)
+                if needs[0] <= spread.room.width + SLACK and needs[1] <= spread.room.height + SLACK:
+                    return spread, level, [] if level == most else [_CLOSE]
+        return found, 1, [_CLOSE] if most else []
 
 
 def _on_any(sheets: Sequence[Paper], rectangle: Rectangle) -> list[Room]:
@@ -158,25 +204,24 @@ def draw_on_one_page(
     session = Session(source, [each.view for each in shown], alone)
     reading = perf_counter() - started
     sizes: list[Size] = [(w * at.unit, h * at.unit) for at in session.placements for w, h in [at.size]]
-    rooms, gap = printed.rooms(options), LEAST_GAP
-    if options.section is not None:
-        from hlr.drawing.section_marks import REACH
-
-        rooms, gap = [_inside(room, REACH) for room in rooms], 2.0 * REACH
+    free = printed.rooms(options)
+    spacing = asked.spacing(free)
     scale = None if options.scale is None else float(options.scale)
-    found = asked.arranged(sizes, rooms, scale, gap)
-    for _ in range(MOST_DRAWINGS):
+    found = asked.arranged(sizes, spacing, scale)
+    for number in range(MOST_DRAWINGS):
         paper = found.room.paper
         on_page = replace(alone, scale=found.scale, page=(paper.width, paper.height))
         drawings = draw_views(source, views, on_page, progress)
         sizes = _sizes(drawings, found, asked)
-        better = asked.arranged(sizes, rooms, scale, gap)
-        if better.scale <= found.scale:
+        better = asked.arranged(sizes, spacing, scale)
+        if number + 1 == MOST_DRAWINGS or better.scale <= found.scale:
             break
         found = better
-    drawing = _together(drawings, sizes, found, asked, options, printed)
+    found, farthest, close = asked.spread(found, sizes, drawings, free)
+    drawing = _together(drawings, sizes, found, asked, options, printed, farthest)
+    drawing = replace(drawing, notes=(*drawing.notes, *close))
     if scale is not None:
-        fits = asked.arranged(sizes, rooms, None, gap).scale
+        fits = asked.arranged(sizes, spacing, None).scale
         drawing = replace(drawing, notes=(*drawing.notes, *_of_scale(sizes, found, fits)))
     if options.strict:
         refuse_warnings(drawing.notes)
@@ -199,8 +244,9 @@ def _together(
     asked: _Views,
     options: Options,
     printed: Printed,
+    farthest: int,
 ) -> Drawing:
-    """One drawing of all views."""
+    """One drawing of all views. farthest: as of `_Views.spread`."""
     placed = _placed(drawings, sizes, found, asked)
     lines: list[Line] = []
     hatches: list[Line] = []
@@ -223,7 +269,7 @@ def _together(
         from hlr.pipeline.section.on_page import section_marks
 
         letters = {each.name: each.letter for each in sorted(asked.shown, key=lambda each: each.number) if each.letter}
-        marks, marking = section_marks(placed, [cell is not None for cell in asked.cells], letters)
+        marks, marking = section_marks(placed, [cell is not None for cell in asked.cells], letters, farthest)
     return Drawing(
         source=drawings[0].source,
         view=DrawnView(asked.method.name, "orthographic", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
@@ -284,13 +330,8 @@ def _sizes(drawings: Sequence[Drawing], found: Arrangement, asked: _Views) -> li
 def _inside(room: Room, border: float) -> Room:
     """A room without its borders, millimetres wide, on which the marks of sections may lie."""
     border = min(border, 0.25 * room.width, 0.25 * room.height)
-    return replace(
-        room,
-        x=room.x + border,
-        y=room.y + border,
-        width=room.width - 2.0 * border,
-        height=room.height - 2.0 * border,
-    )
+    width, height = room.width - 2.0 * border, room.height - 2.0 * border
+    return replace(room, x=room.x + border, y=room.y + border, width=width, height=height)
 
 
 def _placed(drawings: Sequence[Drawing], sizes: Sequence[Size], found: Arrangement, asked: _Views) -> list[_Placed]:

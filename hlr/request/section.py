@@ -103,14 +103,14 @@ def axis_of(direction: Vector) -> int | None:
 
 
 def _pairs(section: Any) -> list[tuple[Any, Any]] | None:
-    """Pairs of a view and a place; None: these are none."""
-    pairs = list(section) if isinstance(section, list | tuple) else []
-    if not pairs or not all(isinstance(pair, list | tuple) and len(pair) == _PAIR for pair in pairs):
-        return None
+    """Pairs of a view and a place; None: these are none. Raises OptionError where others are among them."""
+    given = list(section) if isinstance(section, list | tuple) else []
     # A step is a pair of numbers.
-    if not any(isinstance(view, str | list | tuple) for view, _ in pairs):
+    if not any(isinstance(each, list | tuple) and each and isinstance(each[0], str | list | tuple) for each in given):
         return None
-    return [(view, place) for view, place in pairs]
+    if others := [each for each in given if not isinstance(each, list | tuple) or len(each) != _PAIR]:
+        raise OptionError(f'section needs pairs of a view and its place, such as ("left", 12.5), not {others[0]!r}')
+    return [(view, place) for view, place in given]
 
 
 def _told(place: SectionPlace) -> str:

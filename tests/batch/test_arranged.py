@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from batch.models import Silent
 
@@ -55,6 +57,42 @@ def test_sections_are_said_by_their_views(tmp_path):
     _, alone = jobs(tmp_path, views=["front", "top"], section={"front": True})
     assert [b'<g class="hatch"' in row[0] for row in carry_out(alone[0]).contents] == [True, False]
     assert len({key_of(job, Digests()) for job in (page, alone[0], jobs(tmp_path, views=["front", "top"])[1][0])}) == 3
+
+
+def test_several_sections_of_a_view_are_pairs(tmp_path):
+    section = [["left", 5], ["front", [0, 3, 0]], ["left", [8, 2, 1]]]
+    _, (page,) = jobs(tmp_path, arrange="first-angle", section=section)
+    ((svg,),) = carry_out(page).contents
+    assert [svg.count(f"{letter}-{letter}</text>".encode()) for letter in "ABCD"] == [1, 1, 1, 0]
+    _, (alone,) = jobs(tmp_path, views=["iso", "left", "front"], section=section, formats=["json"])
+    assert [row[0].removeprefix("./") for row in alone.files] == [
+        f"part-{name}.json" for name in ("iso", "left", "left-C", "front")
+    ]
+    outcome = carry_out(alone)
+    assert [drawing["view"] for drawing in outcome.drawings] == ["iso", "left", "left-C", "front"]
+    assert len(outcome.contents) == len(alone.files)
+
+
+@pytest.mark.parametrize(
+    ("section", "told"),
+    [
+        ([["left", 5], ["left", 5.0]], "section left@5 is asked for twice: give each plane once"),
+        ([["left", 5], ["left", 6, 7]], "section needs pairs of a view and its place"),
+        ([["left", 5], ["lft", 6]], "section: no view is called 'lft'"),
+        ([["left", 5], ["right", 6]], "section right is none of the views, front and left: add it to them"),
+    ],
+)
+@pytest.mark.parametrize("arrange", ["", "first-angle"])
+def test_pairs_that_cannot_be_drawn_are_refused_where_they_stand(tmp_path, section, told, arrange):
+    with pytest.raises(OptionError, match=re.escape(told)):
+        manifest, _ = jobs(tmp_path, views=["front", "left"], section=section, arrange=arrange)
+        run(plan(manifest, tmp_path / "out"), Kept(None, Digests()), pytest.fail, Silent())
+
+
+def test_the_order_of_sections_is_part_of_what_is_asked_for(tmp_path):
+    one, other = {"front": True, "left": 5}, {"left": 5, "front": True}
+    keys = {key_of(jobs(tmp_path, arrange="first-angle", section=each)[1][0], Digests()) for each in (one, other)}
+    assert len(keys) == 2
 
 
 @pytest.mark.parametrize(

@@ -2,8 +2,13 @@
 
 from dataclasses import replace
 
+import pytest
+import trimesh
+
+import hlr
 from hlr.cli.telling import of_views
 from hlr.drawing.notes import Note, of_each_view
+from hlr.errors import StrictError
 from support.drawings import drawing, line
 
 SHOWN = Note("script-shape", 'a.py: the variable "result" is drawn.')
@@ -53,3 +58,49 @@ def test_the_command_says_it(hlr_command):
     assert told.count("part 3 could not be read") == 1 and "view " not in told
     told = hlr_command("draw", "crowded.step", "--view", "top", "--view", "iso").err
     assert told == "hlr: note: view top: its lines are close together.\n"
+
+
+@pytest.fixture(scope="module")
+def far(tmp_path_factory):
+    """Boxes, and one high above them: the view from above is not stretched by it."""
+    found = trimesh.Scene()
+    for i, centre in enumerate([*((x, 0.0, 0.0) for x in range(0, 30, 3)), (0.0, 500.0, 0.0)]):
+        box = trimesh.creation.box((2, 2, 2))
+        box.apply_translation(centre)
+        box.apply_scale(1e-3)
+        found.add_geometry(box, geom_name=f"p{i}", node_name=f"p{i}")
+    path = tmp_path_factory.mktemp("far") / "far.glb"  # in metres, y is up
+    found.export(path)
+    return path
+
+
+def test_a_preview_says_it(hlr_real, far):
+    views = ("--view", "top", "--view", "front", "--size", "40x30", "-o", "{view}.png", "--explain")
+    told = hlr_real("preview", far, *views).err
+    assert told.count("hlr: note: ") == 1 and 'hlr: note: view front: the part "p10" lies far from the rest' in told
+    assert [line for line in told.splitlines() if line in ("top", "front")] == ["top", "front"]
+    told = hlr_real("preview", far, "--view", "front", "--size", "40x30", "-o", "a.png", "--explain").err
+    assert 'hlr: note: the part "p10" lies far' in told and "front" not in told.splitlines()
+
+
+@pytest.mark.parametrize(("scale", "view", "size"), [("10:1", "front", "5.03 m"), ("1:10", "top", "only 2.9 mm")])
+def test_what_is_told_early_says_it_once(hlr_real, far, scale, view, size):
+    told = hlr_real("draw", far, "--view", "top", "--view", "front", "--scale", scale, "-o", "{view}.svg").err
+    assert told.count("m large at") == 1 and f"hlr: note: view {view}: the drawing is {size} large at {scale}" in told
+    assert told.count("lies far") == 1 and 'hlr: note: view front: the part "p10" lies far' in told
+
+
+def test_what_all_views_have_is_told_early_without_a_name(hlr_real, far):
+    told = hlr_real("draw", far, "--view", "left", "--view", "right", "--scale", "1:200", "-o", "{view}.svg").err
+    assert told.count("m large at") == 1 and "hlr: note: the drawing is only 2.5 mm large at 1:200" in told
+
+
+def test_a_refusal_says_it():
+    wedge = trimesh.creation.extrude_triangulation([(0, 0), (30, 0), (0, 20)], [(0, 1, 2)], 20.0)
+    options = hlr.Options(scale=1, window=(25, 15, 31, 21), strict=True)
+    with pytest.raises(StrictError, match=r"^view top: nothing of the drawing lies in"):
+        hlr.draw_views(wedge, ["front", "top"], options)
+    far_behind = trimesh.util.concatenate([wedge, wedge.copy().apply_translation((0.0, 1e8, 0.0))])
+    picture = hlr.PreviewOptions(size=(40, 30), strict=True)
+    with pytest.raises(StrictError, match=r"^view front: Depths within"):
+        hlr.preview_views(far_behind, ["top", "front"], picture)

@@ -1,5 +1,6 @@
 """`--section` and `--uncut`: which views are cut and where, and what is refused."""
 
+import json
 import re
 from pathlib import Path
 
@@ -109,6 +110,35 @@ def test_sections_on_one_page(draw, tmp_path, views, shown):
     svg = (tmp_path / "a.svg").read_text("utf-8")
     assert re.findall(r'<view name="(\w+)"', svg) == shown
     assert re.findall(r">([^<>]+)</text>", svg) == ["A", "A", "A-A", "B", "B", "B-B"]
+
+
+def test_several_sections_of_one_view_on_one_page(draw, tmp_path):
+    asked = ["--section", "left@60", "--section", "top@10", "--section", "left@180"]
+    done = draw(STEP, "--arrange", "first-angle", *asked, "-o", "a.svg")
+    assert (done.code, done.err) == (0, "")
+    svg = (tmp_path / "a.svg").read_text("utf-8")
+    assert re.findall(r'<view name="([\w-]+)".* section="(.*)"', svg) == [
+        ("top", "B-B"), ("left", "A-A"), ("left-C", "C-C")
+    ]  # fmt: skip
+
+
+def test_several_sections_of_one_view_are_files_with_names_of_their_own(draw, tmp_path):
+    asked = ["--view", "iso", "--section", "left@60", "--section", "top@10", "--section", "left@180", "--same-scale"]
+    done = draw(STEP, *asked, "-o", "{n}-{view}.svg", "--json")
+    assert (done.code, done.err) == (0, "")
+    names = {path.stem: path.read_text("utf-8") for path in tmp_path.iterdir()}
+    assert sorted(names) == ["1-iso", "2-left", "3-left-C", "4-top"]
+    points = [re.findall(r' section="(\S+) ', svg) for svg in (names["2-left"], names["3-left-C"], names["1-iso"])]
+    assert points == [["60"], ["180"], []]
+    assert [each["view"] for each in json.loads(done.out)["drawings"]] == ["iso", "left", "left-C", "top"]
+
+
+@pytest.mark.parametrize(("planes", "noted"), [(["front"], True), (["front@20", "front@60"], False)])
+def test_one_scale_for_all_is_told_off_where_there_is_one_drawing(hlr_real, planes, noted):
+    sections = [word for plane in planes for word in ("--section", plane)]
+    done = hlr_real("plan", STEP, *sections, "--same-scale")
+    assert ("--same-scale has no effect: there is one view" in done.err) is noted
+    assert noted or re.findall(r"^front.*$", done.out, re.M) == ["front", "front-B"]
 
 
 def test_pages_of_documents_have_their_own_sections(draw):

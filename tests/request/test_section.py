@@ -53,8 +53,6 @@ def test_a_section_has_one_form(given, found):
         (1,),
         (),
         ("front", 3),
-        [("front", 3), 4],
-        [("front", 3, 4)],
         (1, 2, "x"),
         float("nan"),
         1e13,
@@ -65,6 +63,14 @@ def test_a_section_has_one_form(given, found):
 def test_what_names_no_plane_is_refused_with_what_would(section):
     with pytest.raises(hlr.OptionError, match="section needs True for the middle of the model, a coordinate such as"):
         form(section)
+
+
+@pytest.mark.parametrize("other", [4, ("front", 3, 4), (), "front", None])
+def test_what_is_no_pair_is_refused_among_pairs(other):
+    with pytest.raises(
+        hlr.OptionError, match=r'section needs pairs of a view and its place, such as \("left", 12.5\), '
+    ):
+        form([("front", 3), other])
 
 
 @pytest.mark.parametrize("view", ["frnt", "1,2", "1,x,2", (0, 0, 0), 7])
@@ -130,7 +136,7 @@ def test_views_that_are_cut_twice_are_added_once():
     ],
 )
 def test_a_plane_is_given_once(section, told):
-    with pytest.raises(hlr.OptionError, match=f"^section {told} is asked for twice: give each plane once"):
+    with pytest.raises(hlr.OptionError, match=rf"^section {told} is asked for twice: give each plane once"):
         form(section)
 
 

@@ -12,7 +12,7 @@ from hlr.common.types import Floats
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.lines import bounds_of
 from hlr.drawing.notes import Note
-from hlr.drawing.section_marks import ABOVE, BEYOND, SectionMark, shapes_of
+from hlr.drawing.section_marks import ABOVE, BEYOND, FARTHER, TAIL, SectionMark, shapes_of
 from hlr.drawing.view_marks import LETTER, Point
 
 EDGE_ON = 1e-6
@@ -24,6 +24,9 @@ WIDE = 0.75
 
 CLEAR = 1.0
 """Millimetres between the name of a section and the mark of another."""
+
+FARTHEST_ENDS = 2
+"""Times `FARTHER`: how far out cutting lines end that are close together, where the page has room for that."""
 
 MOST_STEPS = 40
 """Millimetres by which a name may be moved to the side."""
@@ -46,27 +49,56 @@ class OnPage(Protocol):
 
 
 def section_marks(
-    views: Sequence[OnPage], own: Sequence[bool], letters: Mapping[str, str]
+    views: Sequence[OnPage], own: Sequence[bool], letters: Mapping[str, str], farthest: int = FARTHEST_ENDS
 ) -> tuple[dict[str, SectionMark], list[Note]]:
     """The mark of each section, by the name of its view, and what is said about them.
 
     own: of each view, whether it has its own place on the page, as those along the axes have
     letters: of the sections, by the names of their views, in the order of the marks
+    farthest: as of `end_levels`
     """
     marks: dict[str, SectionMark] = {}
     notes = []
     named = {view.name: view for view in views}
     sections = [named[name] for name in letters]
+    levels = dict(zip(letters, end_levels([view.drawing for view in sections], farthest), strict=True))
     for view in sections:
         letter = letters[view.name]
         base = _base_of(view, views, own)
-        line = None if base is None else _line(view, base)
+        line = None if base is None else _line(view, base, levels[view.name])
         marks[view.name] = SectionMark(letter, _name_place(view), *(line or ()))
         if base is None:
             text = f"no view of the page sees the plane of section {letter}-{letter} from its edge: none marks it."
             notes.append(Note("section-not-marked", text))
     ink = np.concatenate([np.zeros((0, 2)), *(_ink(mark) for mark in marks.values())])
     return {name: replace(mark, name=_clear_of(ink, mark)) for name, mark in marks.items()}, notes
+
+
+def end_levels(drawings: Sequence[Drawing], farthest: int = FARTHEST_ENDS) -> list[tuple[int, int]]:
+    """How far out both ends of cutting lines go, before the first step and behind the last, in steps of `FARTHER`.
+
+    Arrows of planes that look the same way and are close together would lie over one another: of two, the end of that
+    which is farther from the viewer goes farther out, for its arrow then lies beyond the other. farthest: none goes
+    farther.
+    """
+    places = []
+    for drawing in drawings:
+        section = drawing.section
+        assert section is not None
+        ends = np.array([section.point, (section.point, *section.corners)[-1]])
+        places.append(-ends @ np.array(section.normal) * drawing.scale * drawing.unit)
+    levels = np.zeros((len(drawings), 2), int)
+    for side in (0, 1):
+        for i in sorted(range(len(drawings)), key=lambda i: places[i][side]):
+            before = [
+                levels[j][side]
+                for j, other in enumerate(drawings)
+                if (places[j][side], j) < (places[i][side], i)
+                and places[i][side] - places[j][side] < TAIL
+                and other.view.direction == drawings[i].view.direction
+            ]
+            levels[i][side] = min(max(before, default=-1) + 1, farthest)
+    return [(first, last) for first, last in levels.tolist()]
 
 
 def _base_of(view: OnPage, views: Sequence[OnPage], own: Sequence[bool]) -> OnPage | None:
@@ -83,8 +115,8 @@ def _base_of(view: OnPage, views: Sequence[OnPage], own: Sequence[bool]) -> OnPa
     return views[min(edge_on)[2]] if edge_on else None
 
 
-def _line(view: OnPage, base: OnPage) -> tuple[tuple[Point, ...], Point]:
-    """The cutting line of a section in another view, and the direction to its viewer there."""
+def _line(view: OnPage, base: OnPage, levels: tuple[int, int]) -> tuple[tuple[Point, ...], Point]:
+    """The cutting line of a section in another view, and the direction to its viewer there. levels: of its ends."""
     section, drawing = view.drawing.section, base.drawing
     assert section is not None
     axes = np.array([drawing.view.right, drawing.view.up])
@@ -97,13 +129,14 @@ def _line(view: OnPage, base: OnPage) -> tuple[tuple[Point, ...], Point]:
     on_page = on_line @ axes.T * per_model - np.array(drawing.origin) + base.shift
     # The point lies before the first step.
     corners = on_page[1:] if section.corners else on_page
-    corners = corners[:: -1 if (corners[0] - on_page[0]) @ along < 0.0 else 1]
+    turn = -1 if (corners[0] - on_page[0]) @ along < 0.0 else 1
+    corners, (first, last) = corners[::turn], (BEYOND + FARTHER * level for level in levels[::turn])
     points = np.concatenate([line.points for line in drawing.lines]) + base.shift
     a, b = (
         corner + (float(end) - float(corner @ along)) * along
         for corner, end in (
-            (corners[0], (points @ along).min() - BEYOND),
-            (corners[-1], (points @ along).max() + BEYOND),
+            (corners[0], (points @ along).min() - first),
+            (corners[-1], (points @ along).max() + last),
         )
     )
     return (_pair(a), *(_pair(corner) for corner in corners if section.corners), _pair(b)), _pair(back)

@@ -1,0 +1,67 @@
+"""Sections of one view are told apart by their lines, whatever they are called on a page or by themselves."""
+
+import cadquery as cq
+import pytest
+
+import hlr
+from hlr.compare import compare
+
+
+@pytest.fixture(scope="module")
+def model():
+    made = cq.Workplane().box(60, 40, 12).faces(">Z").workplane().center(15, 8).circle(9).extrude(20)
+    return made.faces(">Z").workplane().hole(6)
+
+
+def page_of(model, *places):
+    return hlr.draw_arranged(model, "first-angle", options=hlr.Options(section=[("left", x) for x in places], scale=1))
+
+
+@pytest.fixture(scope="module")
+def page(model):
+    return page_of(model, -10, 15)
+
+
+def same(found):
+    """The names of the views that are on both sides, and that none of their lines differs."""
+    both = [row for row in found.views if row.before and row.after]
+    assert all(row.same_mm > 50.0 and not any(row.mm.values()) for row in both), both
+    return [row.name for row in both]
+
+
+@pytest.mark.parametrize("ending", ["svg", "json"])
+@pytest.mark.parametrize(("place", "name"), [(-10, "left"), (15, "left-B")])
+def test_a_section_by_itself_is_found_on_a_page(model, page, tmp_path, place, name, ending):
+    hlr.draw(model, view="left", section=place, scale=1).save(tmp_path / f"one.{ending}")
+    assert same(compare(page, tmp_path / f"one.{ending}")) == [name]
+    assert same(compare(tmp_path / f"one.{ending}", page)) == [name]
+
+
+def test_drawings_of_one_run_are_found_on_the_page_of_another(model, page):
+    drawn = hlr.draw_views(model, ["left"], hlr.Options(section=[("left", 15), ("left", -10)], scale=1))
+    assert [same(compare(page, drawing)) for drawing in drawn] == [["left-B"], ["left"]]
+
+
+def test_a_section_by_itself_beside_its_model(model):
+    drawn = hlr.draw_views(model, ["left"], hlr.Options(section=[("left", 15), ("left", -10)], scale=1))
+    for drawing in drawn:
+        assert compare(drawing, model).same
+
+
+def test_sections_of_two_pages_are_paired_by_their_lines(model, page):
+    other = page_of(model, 15, -10)
+    assert same(compare(page, other, register="translation")) == [
+        "front", "top", "left / left-B", "left-B / left", "iso"
+    ]  # fmt: skip
+    assert same(compare(page, page)) == ["front", "top", "left", "left-B", "iso"]
+
+
+def test_a_section_that_one_page_alone_has_is_new(model, page):
+    found = compare(page_of(model, 15), page, register="translation")
+    assert same(found) == ["front", "top", "left / left-B", "iso"]
+    assert [row.name for row in found.views if not row.before] == ["left"]
+
+
+def test_sections_that_look_alike_are_paired_by_their_names():
+    bar = cq.Workplane().box(60, 40, 12)
+    assert same(compare(page_of(bar, -10, 10), page_of(bar, -12, 8))) == ["front", "top", "left", "left-B", "iso"]
