@@ -130,8 +130,9 @@ def test_marks_that_are_close_together_lie_side_by_side_at_any_size(size):
     assert (points > 10.0).all() and (points < [page.page.width - 10.0, page.page.height - 10.0]).all()
 
 
-def test_a_page_without_room_for_close_marks_says_so():
-    page = page_of([("left", place) for place in (-13, -10, -8, -6)], page="A5")
+@pytest.mark.parametrize("places", [(-13, -10, -8, -6), (-10, -8)])
+def test_a_page_without_room_for_close_marks_says_so(places):
+    page = page_of([("left", place) for place in places], page="A5")
     (note,) = page.notes
     assert (note.code, note.is_warning) == ("section-marks-close", False)
     assert note.text.endswith("have no room side by side: give a larger page, or a larger scale.")
@@ -191,6 +192,17 @@ def test_notes_name_the_section_that_they_are_of():
     options = hlr.Options(section=[("left", -10), ("left", -30)], scale=1)
     assert [[note.text for note in each.notes] for each in hlr.draw_views(bracket(), ["left"], options)] == [[], [text]]
     assert [note.text for note in page_of([("left", -10), ("left", -30)]).notes] == [text]
+
+
+def test_a_page_says_of_which_view_a_note_is():
+    far = [
+        *(cq.Workplane().box(2, 2, 2).translate((3 * x, 0, 0)) for x in range(5)),
+        cq.Workplane().box(2, 2, 2).translate((0, 0, 500)),
+    ]
+    (text,) = [note.text for note in hlr.draw_arranged(far, views=["front", "top"]).notes if note.code == "stray-parts"]
+    assert text.startswith("view front: the part ")
+    (text,) = [note.text for note in hlr.draw_arranged(far, views=["front"]).notes if note.code == "stray-parts"]
+    assert text.startswith("the part ")
 
 
 def test_one_drawing_is_cut_once():
