@@ -147,10 +147,10 @@ class _Views:
         if not any(each.is_further for each in self.shown):
             return found, 0, []
         from hlr.drawing.section_marks import FARTHER
-        from hlr.pipeline.section.on_page import end_levels
+        from hlr.pipeline.section.on_page import cutting_lines, end_levels
 
-        sections = [drawing for drawing in drawings if drawing.section is not None]
-        most = max(level for ends in end_levels(sections) for level in ends)
+        lines = cutting_lines(_placed(drawings, sizes, found, self), [cell is not None for cell in self.cells])
+        most = max((level for ends in end_levels(lines).values() for level in ends), default=0)
         for level in range(most, 0, -1):
             spacing = self.spacing([room for room in rooms if room.paper == found.room.paper], FARTHER * level)
             with suppress(OptionError):

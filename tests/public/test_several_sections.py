@@ -130,6 +130,26 @@ def test_marks_that_are_close_together_lie_side_by_side_at_any_size(size):
     assert (points > 10.0).all() and (points < [page.page.width - 10.0, page.page.height - 10.0]).all()
 
 
+@pytest.mark.parametrize(("base", "near"), [("top", 0), ("bottom", 1)])
+def test_only_ends_that_are_close_together_in_one_view_go_farther_out(base, near):
+    stepped = (5.0, (-4.0, 20.0))
+    page = page_of([("left", stepped), ("left", 2.0)], views=[base, "left"], scale=1)
+    low, high = (side[1] for side in extent(page, base))
+    ends = [np.array([mark.line[0][1], mark.line[-1][1]]) for mark in page.sheet.marks]
+    out = np.array([low - BEYOND, high + BEYOND])
+    assert ends[1] == pytest.approx(out, abs=1e-3)
+    out[near] += FARTHER * (-1.0, 1.0)[near]
+    assert ends[0] == pytest.approx(out, abs=1e-3)
+    # The plane that steps is marked in the view from above, the other in that from the front.
+    page = page_of([("left", stepped), ("left", 2.0)], views=["front", "top", "left"], scale=1)
+    assert page.notes == ()
+    for mark, view in zip(page.sheet.marks, ("top", "front"), strict=True):
+        low, high = (side[1] for side in extent(page, view))
+        assert sorted(y for _, y in (mark.line[0], mark.line[-1])) == pytest.approx(
+            [low - BEYOND, high + BEYOND], abs=1e-3
+        )
+
+
 @pytest.mark.parametrize("places", [(-13, -10, -8, -6), (-10, -8)])
 def test_a_page_without_room_for_close_marks_says_so(places):
     page = page_of([("left", place) for place in places], page="A5")

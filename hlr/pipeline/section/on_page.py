@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -27,6 +27,9 @@ CLEAR = 1.0
 
 FARTHEST_ENDS = 2
 """Times `FARTHER`: how far out cutting lines end that are close together, where the page has room for that."""
+
+SAME_PLACE = 1e-6
+"""Millimetres: arrows that end so close to the next line do not lie over it."""
 
 MOST_STEPS = 40
 """Millimetres by which a name may be moved to the side."""
@@ -60,45 +63,74 @@ def section_marks(
     marks: dict[str, SectionMark] = {}
     notes = []
     named = {view.name: view for view in views}
-    sections = [named[name] for name in letters]
-    levels = dict(zip(letters, end_levels([view.drawing for view in sections], farthest), strict=True))
-    for view in sections:
-        letter = letters[view.name]
-        base = _base_of(view, views, own)
-        line = None if base is None else _line(view, base, levels[view.name])
-        marks[view.name] = SectionMark(letter, _name_place(view), *(line or ()))
-        if base is None:
+    lines = _spread(cutting_lines(views, own), farthest)
+    for name, letter in letters.items():
+        line = lines.get(name)
+        marks[name] = SectionMark(letter, _name_place(named[name]), *(() if line is None else (line.points, line.back)))
+        if line is None:
             text = f"no view of the page sees the plane of section {letter}-{letter} from its edge: none marks it."
             notes.append(Note("section-not-marked", text))
     ink = np.concatenate([np.zeros((0, 2)), *(_ink(mark) for mark in marks.values())])
     return {name: replace(mark, name=_clear_of(ink, mark)) for name, mark in marks.items()}, notes
 
 
-def end_levels(drawings: Sequence[Drawing], farthest: int = FARTHEST_ENDS) -> list[tuple[int, int]]:
-    """How far out both ends of cutting lines go, before the first step and behind the last, in steps of `FARTHER`.
+@dataclass(frozen=True, slots=True)
+class CuttingLine:
+    """A section in the view that marks it, of this name. back: to the viewer of the section, of length 1."""
+
+    base: str
+    points: tuple[Point, ...]
+    back: Point
+
+
+def cutting_lines(views: Sequence[OnPage], own: Sequence[bool]) -> dict[str, CuttingLine]:
+    """The cutting lines of sections, by the names of their views; none where no view sees the plane from its edge."""
+    found = {}
+    for view in views:
+        base = None if view.drawing.section is None else _base_of(view, views, own)
+        if base is not None:
+            found[view.name] = CuttingLine(base.name, *_line(view, base))
+    return found
+
+
+def end_levels(lines: Mapping[str, CuttingLine], farthest: int = FARTHEST_ENDS) -> dict[str, tuple[int, int]]:
+    """How far out both ends of cutting lines go, in steps of `FARTHER`, none farther than that many.
 
     Arrows of planes that look the same way and are close together would lie over one another: of two, the end of that
-    which is farther from the viewer goes farther out, for its arrow then lies beyond the other. farthest: none goes
-    farther.
+    which is farther from the viewer goes farther out, for its arrow then lies beyond the other.
     """
-    places = []
-    for drawing in drawings:
-        section = drawing.section
-        assert section is not None
-        ends = np.array([section.point, (section.point, *section.corners)[-1]])
-        places.append(-ends @ np.array(section.normal) * drawing.scale * drawing.unit)
-    levels = np.zeros((len(drawings), 2), int)
-    for side in (0, 1):
-        for i in sorted(range(len(drawings)), key=lambda i: places[i][side]):
-            before = [
-                levels[j][side]
-                for j, other in enumerate(drawings)
-                if (places[j][side], j) < (places[i][side], i)
-                and places[i][side] - places[j][side] < TAIL
-                and other.view.direction == drawings[i].view.direction
+    levels: list[dict[str, int]] = []
+    for end in (0, -1):
+        places = {name: -float(np.dot(line.points[end], line.back)) for name, line in lines.items()}
+        found: dict[str, int] = {}
+        for name in sorted(lines, key=lambda name: places[name]):
+            beside = [
+                level
+                for other, level in found.items()
+                if places[name] - places[other] < TAIL - SAME_PLACE and _are_alike(lines[name], lines[other])
             ]
-            levels[i][side] = min(max(before, default=-1) + 1, farthest)
-    return [(first, last) for first, last in levels.tolist()]
+            found[name] = min(max(beside, default=-1) + 1, farthest)
+        levels.append(found)
+    return {name: (levels[0][name], levels[1][name]) for name in lines}
+
+
+def _are_alike(one: CuttingLine, other: CuttingLine) -> bool:
+    """Whether lines are in the same view, and their arrows look the same way."""
+    return one.base == other.base and float(np.dot(one.back, other.back)) > 1.0 - EDGE_ON
+
+
+def _spread(lines: Mapping[str, CuttingLine], farthest: int) -> dict[str, CuttingLine]:
+    """The lines with their ends as far out as is needed."""
+    spread = {}
+    for name, levels in end_levels(lines, farthest).items():
+        line = lines[name]
+        along = _along(np.array(line.back))
+        points = list(line.points)
+        for end, sense, level in ((0, -1.0, levels[0]), (-1, 1.0, levels[1])):
+            if level:
+                points[end] = _pair(np.array(points[end]) + sense * level * FARTHER * along)
+        spread[name] = replace(line, points=tuple(points))
+    return spread
 
 
 def _base_of(view: OnPage, views: Sequence[OnPage], own: Sequence[bool]) -> OnPage | None:
@@ -115,31 +147,34 @@ def _base_of(view: OnPage, views: Sequence[OnPage], own: Sequence[bool]) -> OnPa
     return views[min(edge_on)[2]] if edge_on else None
 
 
-def _line(view: OnPage, base: OnPage, levels: tuple[int, int]) -> tuple[tuple[Point, ...], Point]:
-    """The cutting line of a section in another view, and the direction to its viewer there. levels: of its ends."""
+def _line(view: OnPage, base: OnPage) -> tuple[tuple[Point, ...], Point]:
+    """The cutting line of a section in another view, and the direction to its viewer there."""
     section, drawing = view.drawing.section, base.drawing
     assert section is not None
     axes = np.array([drawing.view.right, drawing.view.up])
     normal, per_model = axes @ np.array(section.normal), drawing.scale * drawing.unit
     back = normal / float(np.hypot(*normal))
-    along = np.array([back[1], -back[0]])
-    if along[0] < -EDGE_ON or (abs(along[0]) <= EDGE_ON and along[1] < 0.0):
-        along = -along  # from left to right, or up
+    along = _along(back)
     on_line = np.array([section.point, *section.corners])
     on_page = on_line @ axes.T * per_model - np.array(drawing.origin) + base.shift
     # The point lies before the first step.
     corners = on_page[1:] if section.corners else on_page
-    turn = -1 if (corners[0] - on_page[0]) @ along < 0.0 else 1
-    corners, (first, last) = corners[::turn], (BEYOND + FARTHER * level for level in levels[::turn])
+    corners = corners[:: -1 if (corners[0] - on_page[0]) @ along < 0.0 else 1]
     points = np.concatenate([line.points for line in drawing.lines]) + base.shift
     a, b = (
         corner + (float(end) - float(corner @ along)) * along
         for corner, end in (
-            (corners[0], (points @ along).min() - first),
-            (corners[-1], (points @ along).max() + last),
+            (corners[0], (points @ along).min() - BEYOND),
+            (corners[-1], (points @ along).max() + BEYOND),
         )
     )
     return (_pair(a), *(_pair(corner) for corner in corners if section.corners), _pair(b)), _pair(back)
+
+
+def _along(back: Floats) -> Floats:
+    """The direction of a cutting line, from left to right, or up."""
+    along = np.array([back[1], -back[0]])
+    return -along if along[0] < -EDGE_ON or (abs(along[0]) <= EDGE_ON and along[1] < 0.0) else along
 
 
 def _name_place(view: OnPage) -> Point:
