@@ -4,6 +4,7 @@ import json
 import os
 import random
 import time
+from pathlib import Path
 
 import pytest
 from batch import reports
@@ -94,7 +95,7 @@ def test_when_the_time_of_the_batch_is_up_the_next_run_goes_on(go, tmp_path):
 def test_a_folder_that_cannot_be_written_into_is_refused_before_any_work(go, tmp_path, monkeypatch):
     old(tmp_path)
     (tmp_path / "out").mkdir()
-    monkeypatch.setattr(files.os, "access", lambda path, mode: path != tmp_path / "out")
+    monkeypatch.setattr(files.os, "access", lambda path, mode: Path(path) != tmp_path / "out")
     pool = FakePool()
     with pytest.raises(WriteError, match=r"manifest\.json: no permission to write into the folder"):
         go(pool)
