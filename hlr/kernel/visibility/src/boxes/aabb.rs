@@ -25,7 +25,8 @@ impl Aabb {
 
     #[inline(always)]
     pub fn overlaps(&self, other: &Aabb) -> bool {
-        (0..3).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
+        // Without a branch per comparison: which of them fails cannot be foretold.
+        (0..3).fold(true, |all, k| all & (self.low[k] <= other.high[k]) & (other.low[k] <= self.high[k]))
     }
 
     /// Whether the boxes overlap in more than their borders. A box without thickness may lie inside another.

@@ -17,8 +17,8 @@ pub trait Found: Default + Send {
 }
 
 /// Called with two items whose boxes overlap; the first is of the first hierarchy.
-pub trait Visit<F>: Fn(u32, u32, &mut F) + Sync {}
-impl<F, V: Fn(u32, u32, &mut F) + Sync> Visit<F> for V {}
+pub trait Visit<F>: Fn(u32, &[u32], &mut F) + Sync {}
+impl<F, V: Fn(u32, &[u32], &mut F) + Sync> Visit<F> for V {}
 
 /// Whether no two of these items meet, given the bits they have in common. True only where that is certain.
 pub trait Apart: Fn(&[Item], u8) -> bool + Sync {}
@@ -41,10 +41,13 @@ impl Tree {
         let Some([low, high]) = self.halves(at) else {
             let items = self.of_node(node);
             for (k, (a, s)) in items.iter().enumerate() {
+                let (mut near, mut count) = ([0; LEAF], 0);
                 for (b, t) in &items[k + 1..] {
-                    if a.overlaps(b) {
-                        visit(*s, *t, &mut out);
-                    }
+                    near[count] = *t;
+                    count += usize::from(a.overlaps(b));
+                }
+                if count > 0 {
+                    visit(*s, &near[..count], &mut out);
                 }
             }
             return out;
@@ -113,10 +116,13 @@ impl Tree {
             return;
         }
         for (bounds, s) in a.iter().filter(|(bounds, _)| bounds.overlaps(&theirs.bounds)) {
+            let (mut met, mut many) = ([0; LEAF], 0);
             for &k in &near[..count] {
-                if bounds.overlaps(&b[k].0) {
-                    visit(*s, b[k].1, out);
-                }
+                met[many] = b[k].1;
+                many += usize::from(bounds.overlaps(&b[k].0));
+            }
+            if many > 0 {
+                visit(*s, &met[..many], out);
             }
         }
     }

@@ -18,6 +18,7 @@
 
 use std::cmp::Ordering;
 
+use super::triangle_pair::{Numbered, product, way};
 use hlr_exact::Point;
 
 /// Most triangles of a piece.
@@ -185,35 +186,45 @@ fn touch(s: &Side, t: &Side) -> bool {
 
 /// Whether two triangles that share a corner certainly meet nowhere else: projected along the axis along which the
 /// narrower of them appears widest, a side of one of them at that corner separates them.
-pub fn only_at(points: &[Point], a: &[i32; 3], b: &[i32; 3], corner: i32) -> bool {
-    let others = |t: &[i32; 3]| {
-        let k = t.iter().position(|&v| v == corner).unwrap_or(0);
-        [t[(k + 1) % 3], t[(k + 2) % 3]]
+pub fn only_at(a: &Numbered, b: &Numbered, corner: i32) -> bool {
+    let ways = |of: &Numbered| {
+        let [p, q, r] = of.corner;
+        match of.number.iter().position(|&v| v == corner) {
+            Some(1) => [way(q, r), way(q, p)],
+            Some(2) => [way(r, p), way(r, q)],
+            _ => [way(p, q), way(p, r)],
+        }
     };
-    let way = |v: i32| {
-        let (p, o) = (&points[v as usize], &points[corner as usize]);
-        [0, 1, 2].map(|k| i64::from(p[k]) - i64::from(o[k]))
-    };
-    let (a, b) = (others(a).map(way), others(b).map(way));
-    let normal =
-        |[u, v]: &[[i64; 3]; 2]| [0, 1, 2].map(|k| u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]);
-    let (n, m) = (normal(&a), normal(&b));
-    let axis = (0..3).max_by_key(|&k| n[k].unsigned_abs().min(m[k].unsigned_abs())).unwrap_or(0);
-    if n[axis] == 0 || m[axis] == 0 {
-        return false;
+    let (a, b) = (ways(a), ways(b));
+    let (n, m) = (product(&a[0], &a[1]), product(&b[0], &b[1]));
+    let width = |k: usize| n[k].unsigned_abs().min(m[k].unsigned_abs());
+    let widest = width(0).max(width(1)).max(width(2));
+    if widest == 0 {
+        false
+    } else if width(2) == widest {
+        parted::<0, 1>(&a, n[2], &b, m[2])
+    } else if width(1) == widest {
+        parted::<2, 0>(&a, n[1], &b, m[1])
+    } else {
+        parted::<1, 2>(&a, n[0], &b, m[0])
     }
-    let side =
-        |u: &[i64; 3], v: &[i64; 3]| u[(axis + 1) % 3] * v[(axis + 2) % 3] - u[(axis + 2) % 3] * v[(axis + 1) % 3];
-    let parted = |[u, v]: &[[i64; 3]; 2], n: i64, others: &[[i64; 3]; 2]| {
-        let beyond = |w: &[i64; 3], sign: i64| others.iter().all(|o| side(w, o).signum() == sign);
+}
+
+/// Whether a side of one of two triangles separates them, seen along an axis: X and Y are the other two. n, m: of their
+/// normals, what is along that axis.
+#[inline]
+fn parted<const X: usize, const Y: usize>(a: &[[i64; 3]; 2], n: i64, b: &[[i64; 3]; 2], m: i64) -> bool {
+    let side = |u: &[i64; 3], v: &[i64; 3]| (u[X] * v[Y] - u[Y] * v[X]).signum();
+    let by = |[u, v]: &[[i64; 3]; 2], n: i64, others: &[[i64; 3]; 2]| {
+        let beyond = |w: &[i64; 3], sign: i64| side(w, &others[0]) == sign && side(w, &others[1]) == sign;
         beyond(u, -n.signum()) || beyond(v, n.signum())
     };
-    parted(&a, n[axis], &b) || parted(&b, m[axis], &a)
+    by(a, n, b) || by(b, m, a)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::triangle_pair::{Numbered, meet};
+    use super::super::triangle_pair::meet;
     use super::*;
     use crate::random::below;
 

@@ -178,14 +178,17 @@ fn leave(corners: &[Vec3; 3], side: usize, section: &Vec3) -> Option<Exit> {
     Some(Exit { side, place: [0, 1, 2].map(|k| p[k] + t * (q[k] - p[k])) })
 }
 
+#[inline]
 pub fn dot(a: &Vec3, b: &Vec3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+#[inline]
 pub fn minus(a: &Vec3, b: &Vec3) -> Vec3 {
     [0, 1, 2].map(|k| a[k] - b[k])
 }
 
+#[inline]
 pub fn cross(a: &Vec3, b: &Vec3) -> Vec3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

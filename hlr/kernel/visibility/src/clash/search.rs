@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::height_field::{MOST, is_height_field, only_at, seen_along};
 use super::surfaces::Surfaces;
-use super::triangle_pair::{Meeting, Numbered, apart, lies_on, meet, on_one_side};
+use super::triangle_pair::{Facet, Meeting, apart, lies_on, meet};
 use super::uncrossed::{UncrossedFaces, uncrossed_faces};
 use crate::boxes::aabb::{Aabb, Item};
 use crate::boxes::pairs::Found;
@@ -62,7 +62,6 @@ impl Surfaces<'_> {
 
     /// All clashes, sorted by groups, then triangles; incomplete if `stopped` returned true.
     pub fn clashes(&self, stopped: &(dyn Fn() -> bool + Sync)) -> Clashes {
-        let count = self.itself.len();
         let (order, first) = self.by_group();
         let members: Vec<&[u32]> = first.windows(2).map(|w| &order[w[0]..w[1]]).collect();
         let around = |of: &[u32]| {
@@ -71,41 +70,38 @@ impl Surfaces<'_> {
         };
         let near = || {
             let boxes: Vec<Aabb> = members.par_iter().map(|of| around(of)).collect();
-            self.pairs(&boxes, &members)
+            let pairs = self.pairs(&boxes, &members);
+            let wanted = wanted(&boxes, &pairs);
+            (pairs, wanted)
         };
-        let (pairs, uncrossed) = rayon::join(near, || uncrossed_faces(self, stopped));
-        let mut wanted = vec![false; count];
-        for &[a, b] in &pairs {
-            wanted[a as usize] = true;
-            wanted[b as usize] = true;
-        }
+        let ((pairs, wanted), uncrossed) = rayon::join(near, || uncrossed_faces(self, stopped));
         let seen = |t: u32| {
             if !self.itself[self.group[t as usize] as usize] {
                 return 0;
             }
             seen_along(self.triangles[t as usize].map(|v| &self.points[v as usize]))
         };
-        let tree = |of: &[u32]| {
-            let items: Vec<Item> = of.par_iter().with_min_len(MANY).map(|&t| (self.bounds(t), t)).collect();
+        let tree = |of: &[u32], within: &Aabb| {
+            let items = of.par_iter().with_min_len(MANY).map(|&t| (self.bounds(t), t));
+            let items: Vec<Item> = items.filter(|(bounds, _)| bounds.overlaps(within)).collect();
             Tree::with_kinds(&items, &seen)
         };
         // Of each group a tree of what may cross something of it, and one of its uncrossed faces, which may cross others.
         let trees: Vec<[Tree; 2]> = members
             .par_iter()
             .zip(&wanted)
-            .map(|(of, &wanted)| {
-                let of = if wanted { *of } else { &[] };
+            .map(|(of, within)| {
                 if uncrossed.is_empty() {
-                    return [tree(of), tree(&[])];
+                    return [tree(of, within), tree(&[], within)];
                 }
                 let (left_out, tried): (Vec<u32>, Vec<u32>) =
                     of.iter().partition(|&&t| uncrossed.contains(self.planar.of[t as usize]));
-                [tree(&tried), tree(&left_out)]
+                [tree(&tried, within), tree(&left_out, within)]
             })
             .collect();
-        let try_pair = |s: u32, t: u32, out: &mut Part| {
+        let try_pair = |s: u32, near: &[u32], out: &mut Part| {
             if !stopped() {
-                self.try_pair(s, t, out);
+                self.try_pairs(s, near, out);
             }
         };
         let apart = |items: &[Item], along: u8| {
@@ -142,7 +138,7 @@ impl Surfaces<'_> {
     }
 
     /// What crosses uncrossed faces within their group after all.
-    fn of_exceptions(&self, uncrossed: &UncrossedFaces, try_pair: &(impl Fn(u32, u32, &mut Part) + Sync)) -> Part {
+    fn of_exceptions(&self, uncrossed: &UncrossedFaces, try_pair: &(impl Fn(u32, &[u32], &mut Part) + Sync)) -> Part {
         let exceptions = &uncrossed.exceptions;
         let Some(&(last, _)) = exceptions.last() else { return Part::default() };
         let mut members: Vec<Vec<Item>> = vec![Vec::new(); last as usize + 1];
@@ -154,7 +150,7 @@ impl Surfaces<'_> {
         let tried = exceptions.par_iter().map(|(face, t)| {
             let (mut out, around) = (Part::default(), self.bounds(*t));
             for (_, s) in members[*face as usize].iter().filter(|(bounds, _)| bounds.overlaps(&around)) {
-                try_pair(*s, *t, &mut out);
+                try_pair(*s, &[*t], &mut out);
             }
             out
         });
@@ -164,42 +160,50 @@ impl Surfaces<'_> {
         })
     }
 
-    /// Tests two triangles whose boxes overlap: of different groups, the lower group first, or both of one group.
-    fn try_pair(&self, s: u32, t: u32, out: &mut Part) {
+    /// Tests a triangle with others whose boxes overlap its box: of different groups, its group the lower, or all of one.
+    fn try_pairs(&self, s: u32, near: &[u32], out: &mut Part) {
+        let a = self.numbered(s);
+        let own = Facet::new(&a);
+        near.iter().for_each(|&t| self.try_pair(s, &own, t, out));
+    }
+
+    #[inline]
+    fn try_pair(&self, s: u32, own: &Facet, t: u32, out: &mut Part) {
         let same = self.group[s as usize] == self.group[t as usize];
         if same && self.planar.of_one_face(s, t) {
             return;
         }
-        let (s, t) = if same { (s.min(t), s.max(t)) } else { (s, t) };
-        let (a, b) = (self.numbered(s), self.numbered(t));
-        if same && (self.stands_on(s, &a, t, &b) || self.stands_on(t, &b, s, &a)) {
+        let (a, b) = (own.of, &self.numbered(t));
+        let other = Facet::new(b);
+        if same && (self.stands_on(s, own, t, &other) || self.stands_on(t, &other, s, own)) {
             return;
         }
-        if lies_on(&a, &b) || lies_on(&b, &a) {
+        if lies_on(a, b) || lies_on(b, a) {
             return;
         }
         if same {
             let mut shared = a.number.iter().filter(|v| b.number.contains(v));
             match (shared.next(), shared.next()) {
                 (Some(_), Some(_)) => return, // neighbours along an edge meet there by right
-                (Some(&v), None) if only_at(self.points, &a.number, &b.number, v) => return,
+                (Some(&v), None) if only_at(a, b, v) => return,
                 _ => {}
             }
         }
         out.tests += 1;
-        if apart(&a, &b) {
+        if apart(own, &other) {
             return;
         }
-        if let Some(meeting) = meet(&a, &b) {
+        let ((s, a), (t, b)) = if same && t < s { ((t, b), (s, a)) } else { ((s, a), (t, b)) };
+        if let Some(meeting) = meet(a, b) {
             out.found.push(Clash { triangles: [s, t], meeting });
         }
     }
 
     /// Whether triangle t stands on the planar face of s, and does not pass through it.
     #[inline]
-    fn stands_on(&self, s: u32, a: &Numbered, t: u32, b: &Numbered) -> bool {
-        let feet = self.planar.feet_on(self.planar.of[s as usize], t, &b.number);
-        feet != 0 && on_one_side(a, b, feet)
+    fn stands_on(&self, s: u32, a: &Facet, t: u32, b: &Facet) -> bool {
+        let feet = self.planar.feet_on(self.planar.of[s as usize], t, &b.of.number);
+        feet != 0 && a.has_on_one_side(b, feet)
     }
 
     /// Pairs of groups whose boxes overlap in more than their borders, the lower number first; and groups paired with
@@ -223,6 +227,19 @@ impl Surfaces<'_> {
         }
         pairs
     }
+}
+
+/// Per group the box of what may cross something: all of a group that is searched for passing through itself, and of
+/// others what lies in the boxes of the groups that they are paired with.
+fn wanted(boxes: &[Aabb], pairs: &[[u32; 2]]) -> Vec<Aabb> {
+    let mut wanted = vec![Aabb::EMPTY; boxes.len()];
+    for &[a, b] in pairs {
+        let (a, b) = (a as usize, b as usize);
+        let common = boxes[a].common(&boxes[b]);
+        wanted[a] = wanted[a].union(&common);
+        wanted[b] = wanted[b].union(&common);
+    }
+    wanted
 }
 
 #[cfg(test)]

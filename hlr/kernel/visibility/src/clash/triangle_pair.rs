@@ -11,6 +11,7 @@
 //! After P. Guigue and O. Devillers, "Fast and robust triangle-triangle overlap test using orientation predicates",
 //! Journal of Graphics Tools 8 (2003).
 
+use super::reach::{cross, dot, minus};
 use hlr_exact::Point;
 
 /// A triangle with the numbers of its corners: an edge is cut the same way from both triangles that share it.
@@ -38,7 +39,11 @@ pub fn orient3d(p: &Point, q: &Point, r: &Point, s: &Point) -> i128 {
 /// Of the plane through p, q and r. Differences are less than 2^31, so the sums of two products less than 2^63.
 #[inline]
 fn exact_normal(p: &Point, q: &Point, r: &Point) -> [i64; 3] {
-    let (u, v) = (way(p, q), way(p, r));
+    product(&way(p, q), &way(p, r))
+}
+
+#[inline]
+pub fn product(u: &[i64; 3], v: &[i64; 3]) -> [i64; 3] {
     [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
 }
 
@@ -51,7 +56,7 @@ fn above(normal: &[i64; 3], p: &Point, s: &Point) -> i128 {
 }
 
 #[inline]
-fn way(from: &Point, to: &Point) -> [i64; 3] {
+pub fn way(from: &Point, to: &Point) -> [i64; 3] {
     [
         i64::from(to[0]) - i64::from(from[0]),
         i64::from(to[1]) - i64::from(from[1]),
@@ -69,12 +74,77 @@ pub fn lies_on(plane: &Numbered, of: &Numbered) -> bool {
     of.corner.iter().all(|s| upward * (i64::from(s[k]) - i64::from(p[k])) >= 0)
 }
 
+/// A triangle in floating point, for what is decided there: once per triangle, or at least once per pair.
+pub struct Facet<'a> {
+    pub of: &'a Numbered<'a>,
+    /// Exact, as are all differences of 32-bit numbers.
+    corner: [[f64; 3]; 3],
+    /// From the first corner to the others.
+    ways: [[f64; 3]; 2],
+    /// The longest component of the ways.
+    size: f64,
+    /// Each component is off by 4 units of 2^-53 size^2 at most.
+    normal: [f64; 3],
+}
+
+impl<'a> Facet<'a> {
+    #[inline]
+    pub fn new(of: &'a Numbered<'a>) -> Facet<'a> {
+        let corner = of.corner.map(|v| [f64::from(v[0]), f64::from(v[1]), f64::from(v[2])]);
+        let ways = [minus(&corner[1], &corner[0]), minus(&corner[2], &corner[0])];
+        let size = greater(longest(&ways[0]), longest(&ways[1]));
+        Facet { of, corner, ways, size, normal: cross(&ways[0], &ways[1]) }
+    }
+
+    /// Whether all corners of a triangle but those in `but`, a bit each, certainly lie on one side of this one's plane.
+    #[inline]
+    pub fn has_on_one_side(&self, other: &Facet, but: u8) -> bool {
+        let mut size = self.size;
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (k, corner) in other.corner.iter().enumerate() {
+            if but >> k & 1 == 1 {
+                continue;
+            }
+            let w = minus(corner, &self.corner[0]);
+            size = greater(size, longest(&w));
+            let side = dot(&self.normal, &w);
+            (low, high) = (-greater(-low, -side), greater(high, side));
+        }
+        // The sum is off by 30 units of 2^-53 size^3.
+        let error = 32.0 * f64::EPSILON * size * size * size;
+        low > error || high < -error
+    }
+
+    /// ```text
+    ///        /\   |   b      A wall stands on each side of a, square to its plane: all of b is outside one of them.
+    ///       / a\  |  /\
+    ///      /____\ | /__\
+    /// ```
+    #[inline]
+    fn has_beside(&self, other: &Facet) -> bool {
+        let [u, v] = &self.ways;
+        let ways = other.corner.map(|corner| minus(&corner, &self.corner[0]));
+        let size = ways.iter().map(longest).fold(self.size, greater);
+        // A wall's normal is off by 32 units of 2^-53 size^3 and at most 8 size^3 long, a place beside it 2 sizes away:
+        // the sum is off by 320 units of 2^-53 size^4.
+        let error = 256.0 * f64::EPSILON * size * size * size * size;
+        let outside = |from: &[f64; 3], side: &[f64; 3]| {
+            let outward = cross(side, &self.normal);
+            ways.iter().all(|w| dot(&outward, &minus(w, from)) > error)
+        };
+        outside(&[0.0; 3], u) || outside(u, &minus(v, u)) || outside(v, &[-v[0], -v[1], -v[2]])
+    }
+}
+
 /// Whether two triangles certainly do not meet, or only in the corner that they share: the other corners of one lie on
 /// one side of the other's plane, or of the wall on one of its sides. Decided in floating point, and only where the
 /// rounding cannot matter.
 #[inline]
-pub fn apart(a: &Numbered, b: &Numbered) -> bool {
-    on_one_side(a, b, shared(a, b)) || on_one_side(b, a, shared(b, a)) || beside(a, b) || beside(b, a)
+pub fn apart(a: &Facet, b: &Facet) -> bool {
+    // The smaller one rather lies on one side of the larger one than the other way round.
+    let (a, b) = if a.size < b.size { (b, a) } else { (a, b) };
+    let (on_a, on_b) = (shared(b.of, a.of), shared(a.of, b.of));
+    a.has_on_one_side(b, on_b) || b.has_on_one_side(a, on_a) || on_a == 0 && (a.has_beside(b) || b.has_beside(a))
 }
 
 /// The corners of `of`, a bit each, that are corners of the other triangle too.
@@ -83,74 +153,15 @@ fn shared(other: &Numbered, of: &Numbered) -> u8 {
     (0..3).fold(0, |bits, k| bits | u8::from(other.number.contains(&of.number[k])) << k)
 }
 
-/// Whether all corners of `of` but those in `but`, a bit each, certainly lie on one side of a triangle's plane.
-#[inline]
-pub fn on_one_side(plane: &Numbered, of: &Numbered, but: u8) -> bool {
-    let [_, u, v] = ways(plane, &plane.corner);
-    let n = product(&u, &v);
-    let mut size = longest(&u).max(longest(&v));
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for (k, w) in ways(plane, &of.corner).iter().enumerate() {
-        if but >> k & 1 == 1 {
-            continue;
-        }
-        size = size.max(longest(w));
-        let side = scalar(&n, w);
-        (low, high) = (low.min(side), high.max(side));
-    }
-    // Each component of n is off by 4 units of 2^-53 size^2 at most, the sum so by 30 of 2^-53 size^3.
-    let error = 32.0 * f64::EPSILON * size * size * size;
-    low > error || high < -error
-}
-
-/// ```text
-///        /\   |   b      A wall stands on each side of a, square to its plane: all of b is outside one of them.
-///       / a\  |  /\
-///      /____\ | /__\
-/// ```
-fn beside(a: &Numbered, b: &Numbered) -> bool {
-    if a.number.iter().any(|v| b.number.contains(v)) {
-        return false;
-    }
-    let (own, other) = (ways(a, &a.corner), ways(a, &b.corner));
-    let n = product(&own[1], &own[2]);
-    let size = own.iter().chain(&other).map(longest).fold(0.0, f64::max);
-    // n is as above, a wall's normal off by 32 units of 2^-53 size^3 and at most 8 size^3 long, a place beside it 2
-    // sizes away: the sum is off by 320 units of 2^-53 size^4.
-    let error = 256.0 * f64::EPSILON * size * size * size * size;
-    (0..3).any(|k| {
-        let (from, to) = (&own[k], &own[(k + 1) % 3]);
-        let outward = product(&difference(to, from), &n);
-        other.iter().all(|w| scalar(&outward, &difference(w, from)) > error)
-    })
-}
-
-/// From the first corner of a triangle to places. Differences of 32-bit numbers are exact.
-#[inline]
-fn ways(from: &Numbered, to: &[&Point; 3]) -> [[f64; 3]; 3] {
-    let origin = from.corner[0].map(f64::from);
-    let way = |v: &Point| difference(&[f64::from(v[0]), f64::from(v[1]), f64::from(v[2])], &origin);
-    [way(to[0]), way(to[1]), way(to[2])]
-}
-
-#[inline]
-fn difference(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline]
-fn product(u: &[f64; 3], v: &[f64; 3]) -> [f64; 3] {
-    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
-}
-
-#[inline]
-fn scalar(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
 #[inline]
 fn longest(v: &[f64; 3]) -> f64 {
-    v[0].abs().max(v[1].abs()).max(v[2].abs())
+    greater(greater(v[0].abs(), v[1].abs()), v[2].abs())
+}
+
+/// Of two numbers, where neither is NaN: `f64::max` asks for that.
+#[inline]
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// None where they do not meet, or only in a point, or lie in one plane.
@@ -161,15 +172,11 @@ pub fn meet(a: &Numbered, b: &Numbered) -> Option<Meeting> {
     pierce(a, &side_a, b, &mut found);
     pierce(b, &side_b, a, &mut found);
     let ends = found.farthest()?;
-    let normal = |of: &Numbered| {
-        let [_, u, v] = ways(of, &of.corner);
-        product(&u, &v)
-    };
-    let (na, nb) = (normal(a), normal(b));
-    let length = |v: &[f64; 3]| scalar(v, v).sqrt();
+    let (na, nb) = (Facet::new(a).normal, Facet::new(b).normal);
+    let length = |v: &[f64; 3]| dot(v, v).sqrt();
     let (la, lb) = (length(&na), length(&nb));
     let depth = (shallower(&side_a) / lb).min(shallower(&side_b) / la);
-    Some(Meeting { ends, depth, sine: length(&product(&na, &nb)) / (la * lb) })
+    Some(Meeting { ends, depth, sine: length(&cross(&na, &nb)) / (la * lb) })
 }
 
 /// Sides of `of`'s corners against the plane of `plane`; None where the plane does not part them.
@@ -305,11 +312,12 @@ mod tests {
             let a = Numbered { corner: [&corners[0], &corners[1], &corners[2]], number: [0, 1, 2] };
             let b = Numbered { corner: [&corners[3], &corners[4], &corners[last]], number: [3, 4, last as i32] };
             let found = meet(&a, &b).is_some();
-            assert!(!(apart(&a, &b) && found), "{corners:?}");
+            let apart = apart(&Facet::new(&a), &Facet::new(&b));
+            assert!(!(apart && found), "{corners:?}");
             assert!(!(lies_on(&a, &b) && found), "{corners:?}");
             assert_eq!(lies_on(&a, &b), is_square(&a) && sides_of(&a, &b).iter().all(|s| *s >= 0), "{corners:?}");
             on += usize::from(lies_on(&a, &b));
-            told += usize::from(apart(&a, &b));
+            told += usize::from(apart);
             met += usize::from(found);
         }
         assert!(told > 5_000 && met > 1_000 && on > 100, "{told} {met} {on}");
