@@ -16,7 +16,8 @@ pub trait Found: Default + Send {
     fn join(&mut self, other: Self);
 }
 
-/// Called with two items whose boxes overlap; the first is of the first hierarchy.
+/// Called with an item of the first hierarchy and some whose boxes overlap its box: what is worked out of it serves all of
+/// these.
 pub trait Visit<F>: Fn(u32, &[u32], &mut F) + Sync {}
 impl<F, V: Fn(u32, &[u32], &mut F) + Sync> Visit<F> for V {}
 
@@ -164,7 +165,7 @@ mod tests {
             };
             let (own, both) = (plain(&|i| i + 1, &a, &a), plain(&|_| 0, &a, &b));
             let (s, t) = (Tree::new(&a), Tree::new(&b));
-            let visit = |i: u32, j: u32, out: &mut Pairs| out.0.push([i, j]);
+            let visit = |i: u32, near: &[u32], out: &mut Pairs| out.0.extend(near.iter().map(|&j| [i, j]));
             let mut found = s.within(&visit, &|_, _| false).0;
             found.iter_mut().for_each(|pair| pair.sort_unstable());
             found.sort_unstable();
@@ -193,7 +194,8 @@ mod tests {
         assert!(leaves.len() > 2000);
         let narrow = leaves.iter().filter(|w| **w <= 80).count();
         assert!(10 * narrow > 9 * leaves.len(), "{narrow} of {}", leaves.len());
-        let found = tree.within(&|s, t, out: &mut Pairs| out.0.push([s, t]), &|_, _| false).0;
+        let visit = |s: u32, near: &[u32], out: &mut Pairs| out.0.extend(near.iter().map(|&t| [s, t]));
+        let found = tree.within(&visit, &|_, _| false).0;
         assert!(found.is_empty());
     }
 }

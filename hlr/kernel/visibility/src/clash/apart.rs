@@ -6,7 +6,8 @@
 //!   second \___  gap    beyond the other. Two tessellations of one surface cross at every facet: there it is small.
 //! ```
 
-use super::reach::{Exit, PARALLEL, STEPS, Sheet, Vec3, cross, dot};
+use super::reach::{Exit, PARALLEL, STEPS, Sheet, Vec3};
+use hlr_brep::geometry::vector::{cross, dot};
 
 /// The cross-section of one surface. `from`, `to`: the ends of its piece on the current triangle, as (along, up).
 struct Section {

@@ -11,9 +11,10 @@
 
 use super::depth::{Bodies, Depth};
 use super::planar_faces::NO_PLANE;
-use super::reach::{Vec3, cross, dot, minus};
+use super::reach::Vec3;
 use super::search::Clash;
 use hlr_accuracy::{CONTACT_POINT, FLUSH};
+use hlr_brep::geometry::vector::{cross, dot, sub};
 use hlr_mesh::topology::components;
 
 /// Limits `beyond` of crossings of two planar faces to the width of their stretches, less the chord errors of their ends.
@@ -58,13 +59,13 @@ fn width(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], points: &[Vec3], s
     let at = |end: i32| &points[end as usize];
     // The end farthest from any end is an outer one, and the one farthest from that the other.
     let farthest = |from: i32| {
-        let away = |end: &i32| minus(at(*end), at(from));
+        let away = |end: &i32| sub(at(*end), at(from));
         let every = stretch.iter().flat_map(|&i| ends[i]);
         every.max_by(|a, b| dot(&away(a), &away(a)).total_cmp(&dot(&away(b), &away(b))))
     };
     let one = farthest(ends[stretch[0]][0])?;
     let outer = [one, farthest(one)?];
-    let whole = minus(at(outer[1]), at(outer[0]));
+    let whole = sub(at(outer[1]), at(outer[0]));
     let across: Vec<Across> = outer
         .into_iter()
         .filter_map(|end| {
@@ -99,8 +100,8 @@ fn borders<'a>(bodies: &Bodies, clashes: impl Iterator<Item = &'a Clash>, point:
         // Where there is not one face beyond, nothing is known of the border.
         let beyond = sheet.beyond(t, k).map(|(beyond, _)| bodies.face[beyond as usize]);
         let [start, end] = [k, (k + 1) % 3].map(|k| &sheet.points[sheet.triangles[t as usize][k] as usize]);
-        let along = minus(end, start);
-        let over = cross(&minus(point, start), &along);
+        let along = sub(end, start);
+        let over = cross(&sub(point, start), &along);
         let distance = (dot(&over, &over) / dot(&along, &along)).sqrt();
         let curved = beyond == Some(NO_PLANE);
         (beyond != Some(bodies.face[t as usize])).then_some(Border { distance, along, curved })

@@ -4,9 +4,10 @@
 //! surfaces may be tangent at a point.
 
 use super::depth::{Bodies, Depth, SLIGHT_ANGLE};
-use super::reach::{Vec3, minus};
+use super::reach::Vec3;
 use super::search::Clash;
 use hlr_accuracy::CONTACT_REAL;
+use hlr_brep::geometry::vector::sub;
 use hlr_mesh::topology::components;
 
 /// Longest gap to close, in units of the square root of (contact tolerance times the smaller part's size). Surfaces
@@ -164,7 +165,7 @@ fn extents(all: &[Candidate], chosen: &[usize], figure: &[usize], count: usize, 
             }
         }
     }
-    boxes.iter().map(|(low, high)| minus(high, low).into_iter().fold(0.0, f64::max)).collect()
+    boxes.iter().map(|(low, high)| sub(high, low).into_iter().fold(0.0, f64::max)).collect()
 }
 
 /// The kept segments in which a solid meets itself, in figures hardly larger than the triangles they lie on.

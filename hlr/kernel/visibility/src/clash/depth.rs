@@ -11,9 +11,10 @@
 //! other's plane does not tell how deep the surface goes here.
 
 use super::planes::{Plane, Planes};
-use super::reach::{Sheet, Vec3, dot, minus};
+use super::reach::{Sheet, Vec3};
 use super::search::Clash;
 use hlr_accuracy::{CONTACT_OF_ONE_SOLID, CONTACT_POINT, FLUSH};
+use hlr_brep::geometry::vector::{dot, sub};
 
 /// Sine of an angle: two tessellations of one curved surface never cross at more, as chords turn by at most half a
 /// radian.
@@ -113,7 +114,7 @@ impl Bodies<'_> {
             };
             beyond = beyond.min(deep - forgiven);
         }
-        let way = minus(ends[1], ends[0]);
+        let way = sub(ends[1], ends[0]);
         if solid && dot(&way, &way).sqrt() <= CONTACT_POINT * self.deflection {
             // A corner that touches: there is no direction in which its depth could be measured.
             beyond = f64::NEG_INFINITY;
@@ -170,7 +171,7 @@ impl Bodies<'_> {
             span.high - span.low
         };
         let little = ROUNDING * (0..3).map(spread).fold(0.0, f64::max);
-        let flat = |k: usize| dot(&minus(&apex[k], &corners[0]), normal).abs() <= little;
+        let flat = |k: usize| dot(&sub(&apex[k], &corners[0]), normal).abs() <= little;
         let goes_on = [0, 1, 2].map(|k| sides[k].filter(|_| flat(k)));
         Around { corners, apex, goes_on, little }
     }

@@ -321,9 +321,9 @@ mod tests {
             let (a, b) = ([0, 1, 2], [3, 0, 4]);
             let numbered = |t: &[i32; 3]| Numbered { corner: t.map(|v| &points[v as usize]), number: *t };
             let meets = meet(&numbered(&a), &numbered(&b)).is_some();
-            let only = only_at(&points, &a, &b, 0);
+            let only = only_at(&numbered(&a), &numbered(&b), 0);
             assert!(!(only && meets), "{points:?}");
-            assert_eq!(only, only_at(&points, &b, &a, 0));
+            assert_eq!(only, only_at(&numbered(&b), &numbered(&a), 0));
             alone += i32::from(only);
             more += i32::from(meets);
         }

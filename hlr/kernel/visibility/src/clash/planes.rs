@@ -3,8 +3,9 @@
 use std::cmp::Ordering;
 
 use super::planar_faces::NO_PLANE;
-use super::reach::{Sheet, Vec3, cross, dot, minus};
+use super::reach::{Sheet, Vec3};
 use super::search::Clash;
+use hlr_brep::geometry::vector::{cross, dot, sub};
 
 /// `off`: how far corners of the face lie off this plane.
 #[derive(Clone, Copy, Debug)]
@@ -16,7 +17,7 @@ pub struct Plane {
 
 impl Plane {
     pub fn height(&self, p: &Vec3) -> f64 {
-        dot(&minus(p, &self.origin), &self.normal)
+        dot(&sub(p, &self.origin), &self.normal)
     }
 }
 
@@ -88,7 +89,7 @@ impl Candidate {
         let mut corners = sheet.triangles[triangle].map(|v| sheet.points[v as usize]);
         corners.sort_by(order);
         let [p, q, r] = &corners;
-        let sides = [minus(q, p), minus(r, q), minus(p, r)];
+        let sides = [sub(q, p), sub(r, q), sub(p, r)];
         let area = cross(&sides[0], &sides[1]);
         let longest = sides.iter().map(|s| dot(s, s)).fold(0.0, f64::max).sqrt();
         let width = dot(&area, &area).sqrt() / longest;

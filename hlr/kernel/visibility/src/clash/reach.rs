@@ -10,6 +10,7 @@
 //! ```
 
 use super::planar_faces::Edges;
+use hlr_brep::geometry::vector::{cross, dot, sub};
 use hlr_mesh::kinds::SHARP;
 
 /// A mesh with its edges, ascending, and the class of each (`hlr_mesh::kinds`).
@@ -98,7 +99,7 @@ impl<'a> Sheet<'a> {
             if turn < SHALLOW && self.sharp(edge) {
                 return height;
             }
-            let way = minus(&left.place, &exit.place);
+            let way = sub(&left.place, &exit.place);
             let higher = dot(&left.place, up);
             if higher - height < level * dot(&way, &way).sqrt() {
                 return height.max(higher);
@@ -128,7 +129,7 @@ impl<'a> Sheet<'a> {
     }
 
     fn corners(&self, triangle: u32, at: &Vec3) -> [Vec3; 3] {
-        self.triangles[triangle as usize].map(|v| minus(&self.points[v as usize], at))
+        self.triangles[triangle as usize].map(|v| sub(&self.points[v as usize], at))
     }
 
     /// The number of a side's edge.
@@ -176,21 +177,6 @@ fn leave(corners: &[Vec3; 3], side: usize, section: &Vec3) -> Option<Exit> {
     }
     let t = a / (a - b);
     Some(Exit { side, place: [0, 1, 2].map(|k| p[k] + t * (q[k] - p[k])) })
-}
-
-#[inline]
-pub fn dot(a: &Vec3, b: &Vec3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline]
-pub fn minus(a: &Vec3, b: &Vec3) -> Vec3 {
-    [0, 1, 2].map(|k| a[k] - b[k])
-}
-
-#[inline]
-pub fn cross(a: &Vec3, b: &Vec3) -> Vec3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[cfg(test)]

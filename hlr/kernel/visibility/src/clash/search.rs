@@ -246,6 +246,7 @@ fn wanted(boxes: &[Aabb], pairs: &[[u32; 2]]) -> Vec<Aabb> {
 mod tests {
     use super::super::planar_faces::{NO_PLANE, PlanarFaces};
     use super::*;
+    use crate::random::below;
 
     #[test]
     fn triangles_of_one_plane_are_not_tried() {
@@ -262,5 +263,50 @@ mod tests {
         assert_eq!(tests(&[0, 0], &[7, 8]), (1, 1));
         assert_eq!(tests(&[0, 0], &[7, 7]), (0, 0));
         assert_eq!(tests(&[0, 1], &[7, 7]), (1, 1));
+    }
+
+    /// Triangles of random places and sizes, in groups that lie side by side and reach into one another.
+    fn side_by_side(random: &mut impl FnMut(i32) -> i32, groups: i32) -> (Vec<[i32; 3]>, Vec<[i32; 3]>, Vec<i32>) {
+        let (mut points, mut triangles, mut group) = (Vec::new(), Vec::new(), Vec::new());
+        for k in 0..60 * groups {
+            let middle = [700 * (k % groups) + random(1000), random(1000), random(1000)];
+            let first = points.len() as i32;
+            points.extend((0..3).map(|_| middle.map(|c| c + random(600))));
+            triangles.push([first, first + 1, first + 2]);
+            group.push(k % groups);
+        }
+        (points, triangles, group)
+    }
+
+    #[test]
+    fn finds_what_trying_every_pair_finds() {
+        let mut random = below(5);
+        let (points, triangles, group) = side_by_side(&mut random, 4);
+        let planar = PlanarFaces::without_neighbours(vec![NO_PLANE; triangles.len()]);
+        for itself in [[false; 4], [true, false, false, true]] {
+            let surfaces =
+                Surfaces { points: &points, triangles: &triangles, group: &group, itself: &itself, planar: &planar };
+            let asked = |&[s, t]: &[u32; 2]| {
+                let [a, b] = [s, t].map(|t| group[t as usize]);
+                a < b || a == b && s < t && itself[a as usize]
+            };
+            let all = (0..group.len() as u32).flat_map(|s| (0..group.len() as u32).map(move |t| [s, t]));
+            let crossing = |&[s, t]: &[u32; 2]| meet(&surfaces.numbered(s), &surfaces.numbered(t)).is_some();
+            let mut expected: Vec<[u32; 2]> = all.filter(|pair| asked(pair) && crossing(pair)).collect();
+            expected.sort_by_key(|&[s, t]| (group[s as usize], group[t as usize], s, t));
+            let found: Vec<[u32; 2]> = surfaces.clashes(&|| false).found.iter().map(|c| c.triangles).collect();
+            assert!(found.len() > 20, "{}", found.len());
+            assert_eq!(found, expected);
+        }
+    }
+
+    #[test]
+    fn of_a_group_only_what_lies_in_the_box_of_another_is_looked_at() {
+        let cube = |x: i32, size: i32| Aabb { low: [x, 0, 0], high: [x + size, size, size] };
+        let boxes = [cube(0, 10), cube(20, 10), cube(8, 14), cube(100, 5), cube(21, 10)];
+        let found = wanted(&boxes, &[[0, 2], [1, 2], [2, 4], [3, 3]]);
+        let between = |from: i32, to: i32| Aabb { low: [from, 0, 0], high: [to, 10, 10] };
+        assert_eq!(found, [between(8, 10), between(20, 22), between(8, 22), cube(100, 5), between(21, 22)]);
+        assert!(!wanted(&boxes, &[])[0].overlaps(&boxes[0]));
     }
 }

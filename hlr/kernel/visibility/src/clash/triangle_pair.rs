@@ -11,7 +11,7 @@
 //! After P. Guigue and O. Devillers, "Fast and robust triangle-triangle overlap test using orientation predicates",
 //! Journal of Graphics Tools 8 (2003).
 
-use super::reach::{cross, dot, minus};
+use hlr_brep::geometry::vector::{cross, dot, sub};
 use hlr_exact::Point;
 
 /// A triangle with the numbers of its corners: an edge is cut the same way from both triangles that share it.
@@ -74,7 +74,7 @@ pub fn lies_on(plane: &Numbered, of: &Numbered) -> bool {
     of.corner.iter().all(|s| upward * (i64::from(s[k]) - i64::from(p[k])) >= 0)
 }
 
-/// A triangle in floating point, for what is decided there: once per triangle, or at least once per pair.
+/// A triangle in floating point: worked out once for all that it is tried with.
 pub struct Facet<'a> {
     pub of: &'a Numbered<'a>,
     /// Exact, as are all differences of 32-bit numbers.
@@ -91,7 +91,7 @@ impl<'a> Facet<'a> {
     #[inline]
     pub fn new(of: &'a Numbered<'a>) -> Facet<'a> {
         let corner = of.corner.map(|v| [f64::from(v[0]), f64::from(v[1]), f64::from(v[2])]);
-        let ways = [minus(&corner[1], &corner[0]), minus(&corner[2], &corner[0])];
+        let ways = [sub(&corner[1], &corner[0]), sub(&corner[2], &corner[0])];
         let size = greater(longest(&ways[0]), longest(&ways[1]));
         Facet { of, corner, ways, size, normal: cross(&ways[0], &ways[1]) }
     }
@@ -105,7 +105,7 @@ impl<'a> Facet<'a> {
             if but >> k & 1 == 1 {
                 continue;
             }
-            let w = minus(corner, &self.corner[0]);
+            let w = sub(corner, &self.corner[0]);
             size = greater(size, longest(&w));
             let side = dot(&self.normal, &w);
             (low, high) = (-greater(-low, -side), greater(high, side));
@@ -123,16 +123,16 @@ impl<'a> Facet<'a> {
     #[inline]
     fn has_beside(&self, other: &Facet) -> bool {
         let [u, v] = &self.ways;
-        let ways = other.corner.map(|corner| minus(&corner, &self.corner[0]));
+        let ways = other.corner.map(|corner| sub(&corner, &self.corner[0]));
         let size = ways.iter().map(longest).fold(self.size, greater);
         // A wall's normal is off by 32 units of 2^-53 size^3 and at most 8 size^3 long, a place beside it 2 sizes away:
         // the sum is off by 320 units of 2^-53 size^4.
         let error = 256.0 * f64::EPSILON * size * size * size * size;
         let outside = |from: &[f64; 3], side: &[f64; 3]| {
             let outward = cross(side, &self.normal);
-            ways.iter().all(|w| dot(&outward, &minus(w, from)) > error)
+            ways.iter().all(|w| dot(&outward, &sub(w, from)) > error)
         };
-        outside(&[0.0; 3], u) || outside(u, &minus(v, u)) || outside(v, &[-v[0], -v[1], -v[2]])
+        outside(&[0.0; 3], u) || outside(u, &sub(v, u)) || outside(v, &[-v[0], -v[1], -v[2]])
     }
 }
 
