@@ -21,3 +21,6 @@ pub mod stitch;
 pub mod tables;
 pub mod topology;
 pub mod walks;
+
+/// For what is built on meshes, and needs no surfaces.
+pub use hlr_brep::geometry::vector;

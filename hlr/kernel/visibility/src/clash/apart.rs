@@ -7,7 +7,7 @@
 //! ```
 
 use super::reach::{Exit, PARALLEL, STEPS, Sheet, Vec3};
-use hlr_brep::geometry::vector::{cross, dot};
+use hlr_mesh::vector::{cross, dot};
 
 /// The cross-section of one surface. `from`, `to`: the ends of its piece on the current triangle, as (along, up).
 struct Section {

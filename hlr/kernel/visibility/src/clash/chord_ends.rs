@@ -14,8 +14,8 @@ use super::planar_faces::NO_PLANE;
 use super::reach::Vec3;
 use super::search::Clash;
 use hlr_accuracy::{CONTACT_POINT, FLUSH};
-use hlr_brep::geometry::vector::{cross, dot, sub};
 use hlr_mesh::topology::components;
+use hlr_mesh::vector::{cross, dot, sub};
 
 /// Limits `beyond` of crossings of two planar faces to the width of their stretches, less the chord errors of their ends.
 /// `ends`, `depth`: per clash. `points`: the points that `ends` are indices of.

@@ -7,8 +7,8 @@ use super::depth::{Bodies, Depth, SLIGHT_ANGLE};
 use super::reach::Vec3;
 use super::search::Clash;
 use hlr_accuracy::CONTACT_REAL;
-use hlr_brep::geometry::vector::sub;
 use hlr_mesh::topology::components;
+use hlr_mesh::vector::sub;
 
 /// Longest gap to close, in units of the square root of (contact tolerance times the smaller part's size). Surfaces
 /// with that size as radius, tangent at a point, differ by less than the tolerance over 2.8 of these units.

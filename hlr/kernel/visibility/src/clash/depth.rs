@@ -14,7 +14,7 @@ use super::planes::{Plane, Planes};
 use super::reach::{Sheet, Vec3};
 use super::search::Clash;
 use hlr_accuracy::{CONTACT_OF_ONE_SOLID, CONTACT_POINT, FLUSH};
-use hlr_brep::geometry::vector::{dot, sub};
+use hlr_mesh::vector::{dot, sub};
 
 /// Sine of an angle: two tessellations of one curved surface never cross at more, as chords turn by at most half a
 /// radian.

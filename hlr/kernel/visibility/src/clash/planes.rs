@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use super::planar_faces::NO_PLANE;
 use super::reach::{Sheet, Vec3};
 use super::search::Clash;
-use hlr_brep::geometry::vector::{cross, dot, sub};
+use hlr_mesh::vector::{cross, dot, sub};
 
 /// `off`: how far corners of the face lie off this plane.
 #[derive(Clone, Copy, Debug)]

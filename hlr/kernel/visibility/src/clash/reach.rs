@@ -10,8 +10,8 @@
 //! ```
 
 use super::planar_faces::Edges;
-use hlr_brep::geometry::vector::{cross, dot, sub};
 use hlr_mesh::kinds::SHARP;
+use hlr_mesh::vector::{cross, dot, sub};
 
 /// A mesh with its edges, ascending, and the class of each (`hlr_mesh::kinds`).
 pub struct Sheet<'a> {

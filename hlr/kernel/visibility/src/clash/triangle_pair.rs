@@ -11,8 +11,8 @@
 //! After P. Guigue and O. Devillers, "Fast and robust triangle-triangle overlap test using orientation predicates",
 //! Journal of Graphics Tools 8 (2003).
 
-use hlr_brep::geometry::vector::{cross, dot, sub};
 use hlr_exact::Point;
+use hlr_mesh::vector::{cross, dot, sub};
 
 /// A triangle with the numbers of its corners: an edge is cut the same way from both triangles that share it.
 #[derive(Clone, Copy)]
