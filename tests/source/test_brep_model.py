@@ -25,7 +25,7 @@ def dumped(*shapes):
 def meshed(*shapes, deflection=0.02):
     model = _kernel.BrepModel(dumped(*shapes))
     found = model.mesh(deflection, 0.3)
-    assert found.faults() == []
+    assert found.faults() == [] and found.is_sound()
     return found.parts(model.planar(1e-6))
 
 

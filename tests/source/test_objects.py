@@ -117,6 +117,9 @@ def test_a_mesher_that_fails_on_one_part(monkeypatch):
         def __init__(self, meshed):
             self.meshed = meshed
 
+        def is_sound(self):
+            return False
+
         def faults(self):
             return [(6, "no reason")]
 
