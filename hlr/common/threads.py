@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 
 _AS_MANY_AS_BEFORE = nullcontext()
+"""It changes nothing, so all may share it."""
 
 
 def at_most(threads: int) -> AbstractContextManager[None]:

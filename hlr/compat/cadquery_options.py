@@ -48,7 +48,10 @@ class PictureOptions:
         return min([pixels / length for pixels, length in ratios if length > 0.0], default=1.0)
 
     def size(self, width: float, height: float, scale: float) -> tuple[float, float]:
-        """Width and height of the picture, for a drawing of this width and height in model units; scale: its own."""
+        """Width and height of the picture, for a drawing of this width and height in model units.
+
+        scale: what `unit_scale` gives for it.
+        """
         return (
             width * scale + 2.0 * self.marginLeft if self.width is None else self.width,
             height * scale + 2.0 * self.marginTop if self.height is None else self.height,

@@ -19,7 +19,7 @@ from hlr.image.camera import NEAR, Camera, dot
 from hlr.image.image import Image, OwnFaces, Silhouettes
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Vector
-from hlr.scene.chains import edge_keys
+from hlr.scene.walks import edge_keys
 from hlr.tables.line_classes import INTERIOR
 
 
@@ -71,6 +71,7 @@ def clipped(image: Image, planner: Planner) -> Image:
     camera = image.camera
     for name, cuts in zip(("near clipping", "side clipping"), _volume(camera, image.placement.aspect), strict=True):
         if not cuts and not planner.forced:
+            # As in every parallel view: no plane that anything could cross.
             planner.on(name, Facts(perspective=camera.eye is not None))
             continue
         with planner.deciding():

@@ -13,7 +13,6 @@ from hlr.errors import SourceError
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
-from hlr.scene.chains import crease_walks
 from hlr.scene.clash import find_clashes, no_clashes, self_intersecting_parts
 from hlr.scene.creases import creases
 from hlr.scene.defects import defect_notes, part_reports
@@ -23,6 +22,7 @@ from hlr.scene.needles import reliable_normals
 from hlr.scene.scene import Scene, TrueSurfaces
 from hlr.scene.spindle_tori import self_intersecting_tori
 from hlr.scene.stitching import stitch_borders
+from hlr.scene.walks import crease_walks
 from hlr.source.bounds import LARGEST_COORDINATE
 from hlr.source.fewer_triangles import Fewer, with_fewer_triangles
 from hlr.source.model import Tessellation

@@ -15,8 +15,8 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr._kernel import MeshFacts
 from hlr.common.types import Floats, Ints
-from hlr.scene.chains import STRAIGHT_ON
 from hlr.scene.fading_creases import fading_edges
+from hlr.scene.walks import STRAIGHT_ON
 from hlr.tables.line_classes import EdgeClass
 
 Bools = npt.NDArray[np.bool_]

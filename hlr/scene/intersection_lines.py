@@ -7,9 +7,9 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr._kernel import MeshScene, PartTables
-from hlr.scene.chains import STRAIGHT_ON
 from hlr.scene.clash import Clashes
 from hlr.scene.scene import IntersectionCurves, TrueSurfaces
+from hlr.scene.walks import STRAIGHT_ON
 from hlr.source.model import Curves
 from hlr.tables.line_classes import EdgeClass
 

@@ -24,7 +24,7 @@ from hlr import _kernel
 from hlr._kernel import MeshFacts
 from hlr.common.distinct import distinct
 from hlr.common.types import Floats, Ints
-from hlr.scene.chains import edge_keys
+from hlr.scene.walks import edge_keys
 from hlr.source.mesh.cleaning import NEEDLE_HEIGHT
 
 Indices = npt.NDArray[np.intp]

@@ -84,11 +84,6 @@ class Strokes:
         """Decimals of the page's width and height: a sheet has its exact size, however coarse the drawing is."""
         return max(self.places, PAGE_PLACES)
 
-    @property
-    def layers(self) -> tuple[_kernel.Layer, ...]:
-        """The layers alone."""
-        return tuple(inked.layer for inked in self.inked)
-
 
 def places_of(drawing: Drawing, bounds: tuple[float, float, float, float]) -> int:
     """Decimals of the points in SVG and PDF."""

@@ -3,11 +3,13 @@
 import re
 import warnings
 import xml.etree.ElementTree as ET
+from dataclasses import fields
 
 import numpy as np
 import pytest
 
 from hlr.compat.cadquery import export, exportSVG, getSVG
+from hlr.compat.cadquery_options import PictureOptions, check_options
 from hlr.errors import HlrError, OptionError, SourceError, ViewError, WriteError
 
 cq = pytest.importorskip("cadquery")
@@ -207,6 +209,11 @@ def test_other_types_are_left_to_cadquery(tmp_path):
     assert (tmp_path / "b").read_text().startswith("solid")
     with pytest.raises(ValueError, match="Unknown extensions"):
         export(plate(), str(tmp_path / "a.dwg"))
+
+
+def test_every_option_of_the_picture_may_be_given():
+    usual = PictureOptions()
+    assert check_options({each.name: getattr(usual, each.name) for each in fields(usual)}) == usual
 
 
 @pytest.mark.slow

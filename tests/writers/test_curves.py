@@ -91,9 +91,9 @@ def test_a_line_keeps_its_place_among_arcs():
         arc((30, 5), 4, 4, (2, 1), edge=4),
         line([[40, 0], [41, 2], [43, 1], [44, 4]], edge=5),
     ]
-    (layer,) = strokes(drawing(lines)).layers
-    rows, alone = layer.rows(), [strokes(drawing([each])).layers[0].rows() for each in lines]
-    assert layer.ties[:, 1].tolist() == [0, 1, 2, 3, 4, 5]
+    (inked,) = strokes(drawing(lines)).inked
+    rows, alone = inked.layer.rows(), [strokes(drawing([each])).inked[0].layer.rows() for each in lines]
+    assert inked.layer.ties[:, 1].tolist() == [0, 1, 2, 3, 4, 5]
     assert rows["points"].tolist() == [row for each in alone for row in each["points"].tolist()]
     assert rows["op"].tolist() == [op for each in alone for op in each["op"].tolist()]
     turns = [rows["shapes"][i].tolist() for i in rows["arc"].tolist() if i >= 0]

@@ -5,6 +5,10 @@ from hlr.writers.strokes import strokes
 from support.drawings import drawing, line, sample
 
 
+def layers_in(found):
+    return tuple(inked.layer for inked in found.inked)
+
+
 def only(layers):
     (layer,) = layers
     return layer
@@ -20,13 +24,13 @@ def edges(layer):
 
 def test_hidden_layers_come_first_and_wide_ones_last():
     rows = by_number()
-    layers = [(layer.visible, rows[layer.kind].place) for layer in strokes(sample()).layers]
+    layers = [(layer.visible, rows[layer.kind].place) for layer in layers_in(strokes(sample()))]
     assert layers == sorted(layers)
     assert {visible for visible, _ in layers} == {False, True}
 
 
 def test_pieces_of_an_edge_that_touch_become_one_stroke():
-    layer = only(strokes(drawing([line([[0, 0], [1, 0]], edge=3), line([[1, 0], [1, 1]], edge=3)])).layers)
+    layer = only(layers_in(strokes(drawing([line([[0, 0], [1, 0]], edge=3), line([[1, 0], [1, 1]], edge=3)]))))
     assert points(layer) == [[0, 0], [1000, 0], [1000, 1000]]
     assert layer.starts.tolist() == [0, 3]
     assert edges(layer) == [3]
@@ -35,18 +39,18 @@ def test_pieces_of_an_edge_that_touch_become_one_stroke():
 def test_pieces_of_different_edges_or_parts_stay_apart():
     for other in ({"edge": 4}, {"edge": 3, "part": 1}, {"edge": 3, "visible": False}, {"edge": 3, "kind": "seam"}):
         lines = [line([[0, 0], [1, 0]], edge=3), line([[1, 0], [1, 1]], **other)]
-        assert sum(len(layer.closed) for layer in strokes(drawing(lines)).layers) == 2, other
+        assert sum(len(layer.closed) for layer in layers_in(strokes(drawing(lines)))) == 2, other
 
 
 def test_pieces_that_do_not_touch_stay_apart():
-    layer = only(strokes(drawing([line([[0, 0], [1, 0]], edge=3), line([[1.001, 0], [2, 1]], edge=3)])).layers)
+    layer = only(layers_in(strokes(drawing([line([[0, 0], [1, 0]], edge=3), line([[1.001, 0], [2, 1]], edge=3)]))))
     assert layer.starts.tolist() == [0, 2, 4]
 
 
 def test_a_loop_in_one_line_or_in_two_is_closed():
     square = [[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]
     for lines in ([line(square)], [line(square[:3]), line(square[2:])]):
-        layer = only(strokes(drawing(lines)).layers)
+        layer = only(layers_in(strokes(drawing(lines))))
         assert layer.closed.tolist() == [True]
         assert len(points(layer)) == 4
 
@@ -54,26 +58,26 @@ def test_a_loop_in_one_line_or_in_two_is_closed():
 def test_a_loop_stays_closed_where_another_line_goes_on_from_it():
     square = line([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]])
     tail = line([[0, 0], [-1, -1]])
-    assert only(strokes(drawing([square, tail])).layers).closed.tolist() == [True, False]
+    assert only(layers_in(strokes(drawing([square, tail])))).closed.tolist() == [True, False]
     head = line([[-1, -1], [0, 0]])
-    assert only(strokes(drawing([head, square])).layers).closed.tolist() == [False, True]
+    assert only(layers_in(strokes(drawing([head, square])))).closed.tolist() == [False, True]
 
 
 def test_there_and_back_is_not_a_loop():
-    layer = only(strokes(drawing([line([[0, 0], [1, 0], [0, 0]])])).layers)
+    layer = only(layers_in(strokes(drawing([line([[0, 0], [1, 0], [0, 0]])]))))
     assert layer.closed.tolist() == [False]
     assert len(points(layer)) == 3
 
 
 def test_points_below_the_grid_are_left_out():
     lines = [line([[0, 0], [0.0001, 0], [5, 0]]), line([[3, 3], [3.0001, 3]]), line([[7, 7], [8, 8]], edge=1)]
-    layer = only(strokes(drawing(lines)).layers)
+    layer = only(layers_in(strokes(drawing(lines))))
     assert points(layer) == [[0, 0], [5000, 0], [7000, 7000], [8000, 8000]]
     assert edges(layer) == [-1, 1]
 
 
 def test_a_layer_with_nothing_left_is_no_layer():
-    assert strokes(drawing([line([[3, 3], [3.0001, 3]])])).layers == ()
+    assert layers_in(strokes(drawing([line([[3, 3], [3.0001, 3]])]))) == ()
 
 
 def test_the_page_is_the_drawing_and_a_margin():
@@ -83,4 +87,4 @@ def test_the_page_is_the_drawing_and_a_margin():
 
 def test_an_empty_drawing_is_an_empty_page():
     page = strokes(drawing([]))
-    assert (page.layers, page.width, page.height) == ((), 11.0, 11.0)
+    assert (page.inked, page.width, page.height) == ((), 11.0, 11.0)

@@ -22,5 +22,5 @@ pub mod tables;
 pub mod topology;
 pub mod walks;
 
-/// For what is built on meshes, and needs no surfaces.
+/// Vectors in space, for crates that are built on meshes and know no surfaces.
 pub use hlr_brep::geometry::vector;

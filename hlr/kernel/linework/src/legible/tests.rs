@@ -199,3 +199,11 @@ fn segments_beside_which_nothing_lies_at_any_place_are_told_at_once() {
     }
     assert!(found > 200 && told > 1000, "{found} {told}");
 }
+
+#[test]
+fn shares_add_up_from_bin_to_bin() {
+    let shares = |ink: f64| Spacing { bins: vec![1.0, 0.0, 3.0], ink, smallest: 1.0 }.shares();
+    assert_eq!(shares(8.0), [0.125, 0.125, 0.5]);
+    // Ink of less than a millimetre counts as a millimetre.
+    assert_eq!(shares(0.5), [1.0, 1.0, 4.0]);
+}

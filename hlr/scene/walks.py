@@ -1,4 +1,4 @@
-"""Mesh edges joined end to end into creases and borders."""
+"""Walks along creases and borders of meshes: their edges, joined end to end."""
 
 from __future__ import annotations
 
