@@ -158,7 +158,10 @@ if not TYPE_CHECKING:  # else a type checker would take any name for one of ours
         from importlib import import_module
 
         if name in _HOME:
-            return getattr(import_module(_HOME[name]), _CALLED.get(name, name))
-        if name in _MODULES:
-            return import_module(_MODULES[name])
-        raise AttributeError(f"module 'hlr' has no attribute {name!r}")
+            found = getattr(import_module(_HOME[name]), _CALLED.get(name, name))
+        elif name in _MODULES:
+            found = import_module(_MODULES[name])
+        else:
+            raise AttributeError(f"module 'hlr' has no attribute {name!r}")
+        globals()[name] = found  # from now on it is found without asking here
+        return found

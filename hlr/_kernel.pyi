@@ -144,8 +144,8 @@ class Groups:
     def unsound(self, which: Bools) -> Groups:
         """These groups where those in `which` (g,) pass through themselves: they are neither sound nor culled."""
 
-    def meeting(self) -> Bools:
-        """(g,) whether the box of each group comes near that of another: False only where it certainly does not."""
+    def meeting(self) -> int:
+        """How many groups have a box that comes near that of another; no other group may touch one."""
 
 class VisibilityInput:
     """What the visibility pass is told of edges and groups: decided for a view of a scene, or, by `of`, given.
@@ -616,6 +616,10 @@ class Chains:
     def straight(self) -> Bools:
         """(c,) known to be, so that no curve is looked for."""
 
+    @property
+    def all_straight(self) -> bool:
+        """Whether all chains along edges of the source are."""
+
 class LineTolerances:
     """Tolerances of linework, as in `Tolerances`: millimetres on paper, with four exceptions.
 
@@ -643,7 +647,7 @@ class Cut:
     """Lines on paper: pieces joined along chains, coincident lines merged, short figures dropped, vertices thinned out.
 
     ranks (k,) uint8, by line class: of coincident lines the lower sixteen is drawn, of equal ones the nearer, then the
-    lower; without_brep (parts,): a mesh without faces; hidden: whether hidden lines are drawn; true_points (n, 3):
+    lower; hidden: whether hidden lines are drawn; true_points (n, 3):
     those of the mesh, with the points of intersection lines on the true surfaces. ValueError where they do not fit,
     KeyboardInterrupt within milliseconds of Ctrl-C.
     """
@@ -655,7 +659,6 @@ class Cut:
         found: Visibility,
         chains: Chains,
         ranks: Bytes,
-        without_brep: Bools,
         tolerances: LineTolerances,
         hidden: bool,
         true_points: Floats | None = None,
@@ -668,12 +671,12 @@ class Cut:
         """(lines,) the chain of each line; hidden lines that only bound others, and are not drawn, are included."""
 
     def finished(
-        self, curves: Curves | None, places: Floats, curve: Ints, place: Ints, bulge: Floats
+        self, along: tuple[Curves, Floats, Ints, Ints, Floats] | None = None
     ) -> tuple[Lines, tuple[float, float]]:
         """The lines on their curves, sorted by part, kind, edge and face, and their lower left corner. Call it once.
 
-        curves: None where there are none; places (p, 3, 4); curve (c,) of each chain, -1 for none, place (c,) and bulge
-        (c,), millimetres on paper.
+        along: curves; places (p, 3, 4); of each chain its curve (c,), -1 for none, its place (c,), and its bulge (c,),
+        millimetres on paper. None: no line has a curve.
         """
 
 class Lines:
@@ -1018,7 +1021,12 @@ class PartTables:
     face_shape: Ints
     face_place: Floats
     face_reversed: Bools
+    breps: int
+    planar_faces: int
     def __len__(self) -> int: ...
+    def fewest_and_all(self, part: Ints) -> tuple[int, int]:
+        """The fewest triangles that one of these parts has, and how many all have; without parts 0. ValueError."""
+
     def placed(self, part: Ints, transform: Floats, precision: Floats) -> PartTables:
         """These parts (m,), any of them any number of times, each moved by its transform (m, 3, 4)."""
 
@@ -1065,11 +1073,12 @@ class MeshScene:
     triangle_part, triangle_group, curved (t,): the face may show an outline; turned (t,): None where none was
     loose (l, 2): edges of the source that no triangle has; their numbers follow those of `mesh`
     edge_part, edge_group, edge_curved (e,) of the edges with triangles; edge_kind (e + l,): EdgeClass, 255 for none
-    group_part (g,); welded (g,): a mesh without B-rep with more than two triangles at an edge; folded (g,): not surely
-    one convex body
+    group_part (g,); welded (g,): a mesh without B-rep with more than two triangles at an edge
+    folded: how many groups are not surely one convex body; curved_faces: how many faces may show an outline
     face_*, corner: as in `TrueSurfaces`
-    reports: of each part the border edges, edges of more than two triangles, edges between faces of opposite
-    orientation, triangles without area, groups that are not closed, groups turned, triangles, and edges of the source
+    reports: of each part whether it has a B-rep, its faces, and the border edges, edges of more than two triangles,
+    edges between faces of opposite orientation, triangles without area, groups that are not closed, groups turned,
+    triangles, and edges of the source
     """
 
     mesh: MeshFacts
@@ -1085,12 +1094,13 @@ class MeshScene:
     edge_curved: Bools
     group_part: Ints
     welded: Bools
-    folded: Bools
+    folded: int
+    curved_faces: int
     corner: Ints
     face_place: Floats
     face_inward: Bools
     face_curved: Bools
-    reports: list[list[int]]
+    reports: list[tuple[bool, int, list[int]]]
     def walks(self) -> Walks:
         """Along the edges of the source."""
 

@@ -68,11 +68,14 @@ def clipped(image: Image, planner: Planner) -> Image:
 
     A plane that nothing crosses leaves the image as it is. Forced clipping applies such planes as well.
     """
-    camera = image.camera
-    for name, cuts in zip(("near clipping", "side clipping"), _volume(camera, image.placement.aspect), strict=True):
+    camera, names = image.camera, ("near clipping", "side clipping")
+    if camera.eye is None and not planner.forced:
+        # A parallel view has no plane that anything could cross.
+        planner.state(Facts(), *names)
+        return image
+    for name, cuts in zip(names, _volume(camera, image.placement.aspect), strict=True):
         if not cuts and not planner.forced:
-            # As in every parallel view: no plane that anything could cross.
-            planner.on(name, Facts(perspective=camera.eye is not None))
+            planner.state(Facts(perspective=camera.eye is not None), name)
             continue
         with planner.deciding():
             facts = Facts(perspective=camera.eye is not None, crossed=sum(_crossed(image, p) for p in cuts))

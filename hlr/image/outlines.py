@@ -43,7 +43,7 @@ def outlined(image: Image, planner: Planner) -> Image:
     surfaces = image.true_surfaces
     if image.silhouettes is not None:
         return image
-    curved = 0 if surfaces is None else int(np.count_nonzero(surfaces.curved))
+    curved = 0 if surfaces is None else surfaces.curved_faces
     wanted = planner.on("outlines", Facts(curved=curved, faces=surfaces is not None))
     if not wanted or surfaces is None:
         return image

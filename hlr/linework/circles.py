@@ -57,9 +57,9 @@ class Circles:
 
 def circles(image: Image, plan: Plan, chains: _kernel.Chains) -> Circles | None:
     """The circles along creases and borders of meshes; None where there are none, or none were asked for."""
-    if plan.step <= 0.0:
+    if plan.step <= 0.0 or image.has_faces.all():
         return None
-    bare = np.array([p.faces == 0 for p in image.parts], bool)[chains.part]
+    bare = ~image.has_faces[chains.part]
     wanted = bare & np.isin(chains.kind, (EdgeClass.SHARP, EdgeClass.BOUNDARY))
     offsets, walked, backward = chains.offsets, chains.edges, chains.reversed
     wanted &= np.diff(offsets) >= FEWEST - 1

@@ -30,13 +30,12 @@ HERE = np.eye(3, 4)[None]
 
 @dataclass(frozen=True, slots=True)
 class Guides:
-    """Curves of c chains. known: there may be some; curves: n records; places (p, 3, 4): matrices into the model.
+    """Curves of c chains. curves: n records; places (p, 3, 4): matrices into the model.
 
     curve (c,): each chain's record, -1 for none; place (c,): its matrix; bulge (c,): the most that the curve rises
     above the chords that it was found on, millimetres on paper; sought: for how many lines a curve was looked up
     """
 
-    known: bool
     curves: Curves
     places: Floats
     curve: Ints
@@ -44,9 +43,22 @@ class Guides:
     bulge: Floats
     sought: int
 
+    def for_kernel(self) -> tuple[_kernel.Curves, Floats, Ints, Ints, Floats]:
+        """As the kernel takes them."""
+        c = self.curves
+        records = _kernel.Curves(c.kind, np.ascontiguousarray(c.range), c.offsets, c.values)
+        return records, self.places, self.curve, self.place, self.bulge
 
-def guides(image: Image, plan: Plan, chains: _kernel.Chains, lines: Ints, edge_curves: EdgeCurveLookup) -> Guides:
-    """The curves of chains. lines (n,): the chain of each line; only the curves of these are looked up."""
+
+def guides(
+    image: Image, plan: Plan, chains: _kernel.Chains, cut: _kernel.Cut, edge_curves: EdgeCurveLookup
+) -> Guides | None:
+    """The curves of chains; None where no line can have one. Only the curves of lines that were cut are looked up."""
+    round_ = circles(image, plan, chains)
+    none_of_edges = chains.all_straight or edge_curves is None
+    none_of_its_own = image.silhouettes is None and image.intersections is None and round_ is None
+    if none_of_edges and none_of_its_own and not plan.every_curve:
+        return None
     edge, part, straight = chains.edge, chains.part, chains.straight
     # number (c,): the outline or circle of each chain; both are in model coordinates already.
     number, own, bulge = np.full(len(edge), -1, np.int32), NO_CURVES, np.zeros(0)
@@ -68,15 +80,13 @@ def guides(image: Image, plan: Plan, chains: _kernel.Chains, lines: Ints, edge_c
         edge_curves(part[straight], edge[straight])
     # Two planes meet in the straight line between the vertices: there is no curve to look up.
     edge[straight] = -1
-    round_ = circles(image, plan, chains)
     if round_ is not None:
         number = np.where(round_.number >= 0, round_.number + len(own.kind), number).astype(np.int32)
         own, bulge = concatenate_curves(own, round_.curves), np.concatenate([bulge, round_.bulge])
-    known = edge_curves is not None or len(own.kind) > 0
-    if not len(own.kind) and edge.max(initial=-1) < 0:
-        # All lines are straight.
-        return Guides(known, own, HERE, number, np.zeros(len(edge), np.int32), np.zeros(len(edge)), 0)
-    sought = int(((edge >= 0) | (number >= 0))[lines].sum()) if known else 0
+    if not len(own.kind) and (edge_curves is None or edge.max(initial=-1) < 0):
+        return None
+    lines = cut.chain
+    sought = int(((edge >= 0) | (number >= 0))[lines].sum())
 
     curve, place = np.full(len(edge), -1, np.int32), np.zeros(len(edge), np.int32)
     curves, places = NO_CURVES, HERE
@@ -93,4 +103,4 @@ def guides(image: Image, plan: Plan, chains: _kernel.Chains, lines: Ints, edge_c
         curve[loose], place[loose] = number[loose] + len(curves.kind), len(places) - 1
         rises[loose] = bulge[number[loose]]
         curves = concatenate_curves(curves, own)
-    return Guides(known, curves, places, curve, place, rises, sought)
+    return Guides(curves, places, curve, place, rises, sought)

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from hlr import _kernel
 from hlr.drawing.line import Line
 from hlr.drawing.lines import Lines
@@ -47,8 +45,6 @@ def draw_lines(
         segments.found,
         chains,
         ranks(),
-        # The contours of meshes are smoothed; those of a B-rep's tessellation have no accuracy left for it.
-        np.array([p.faces == 0 for p in image.parts], bool),
         _kernel.LineTolerances(
             accuracy=t.accuracy,
             short=t.short,
@@ -67,18 +63,9 @@ def draw_lines(
     )
     if len(cut) == 0:
         return Linework((), (0.0, 0.0), 0)
-    along = guides(image, plan, chains, cut.chain, edge_curves)
-    curves = along.curves
-    lines, origin = cut.finished(
-        _kernel.Curves(curves.kind, np.ascontiguousarray(curves.range), curves.offsets, curves.values)
-        if along.known
-        else None,
-        along.places,
-        along.curve,
-        along.place,
-        along.bulge,
-    )
-    return Linework(Lines(lines), origin, along.sought)
+    along = guides(image, plan, chains, cut, edge_curves)
+    lines, origin = cut.finished(None if along is None else along.for_kernel())
+    return Linework(Lines(lines), origin, 0 if along is None else along.sought)
 
 
 def _chains(image: Image, plan: Plan, segments: Segments) -> _kernel.Chains:
@@ -89,6 +76,6 @@ def _chains(image: Image, plan: Plan, segments: Segments) -> _kernel.Chains:
         segments.mesh,
         image.triangle_part,
         image.triangle_face,
-        np.array([p.faces > 0 for p in image.parts], bool),
+        image.has_faces,
         segments.found,
     )

@@ -14,8 +14,7 @@ def note_reading(planner: Planner, source: Source) -> None:
     """Decide on the readers, and state what reading took."""
     brep = is_brep(source.kind)
     facts, count = Facts(kind=source.kind), len(source.names())
-    planner.on("B-rep reader", facts)
-    planner.on("mesh reader", facts)
+    planner.state(facts, "B-rep reader", "mesh reader")
     planner.spent("B-rep reader" if brep else "mesh reader", **{"brep_parts" if brep else "mesh_parts": count})
 
 
@@ -25,14 +24,13 @@ def note_meshing(planner: Planner, scene: Scene) -> None:
     if surfaces is None:
         curved = planar = triangles = bent = 0
     else:
-        planar, triangles = int(np.count_nonzero(surfaces.planar)), len(scene.triangles)
+        planar, triangles = surfaces.planar_faces, len(scene.triangles)
         curved, bent = len(surfaces.planar) - planar, 0 if planar else triangles
         if curved and planar:
             face = surfaces.first[scene.triangle_part] + scene.triangle_face
             bent = triangles - int(np.count_nonzero(surfaces.planar[face]))
     facts = Facts(curved=curved, planar=planar, faces=surfaces is not None)
-    planner.on("meshing of curved faces", facts)
-    planner.on("triangulation of planar faces", facts)
+    planner.state(facts, "meshing of curved faces", "triangulation of planar faces")
     planner.spent("meshing of curved faces", curved_triangles=bent)
     planner.spent("triangulation of planar faces", planar_triangles=triangles - bent)
 
@@ -40,5 +38,5 @@ def note_meshing(planner: Planner, scene: Scene) -> None:
 def note_rescue(planner: Planner, scene: Scene, meshed: Tessellation) -> None:
     """State what became of the faces that the kernel could not mesh."""
     failed = meshed.rescued + meshed.lost
-    planner.on("rescue of faces", Facts(failed=failed, faces=scene.true_surfaces is not None))
+    planner.state(Facts(failed=failed, faces=scene.true_surfaces is not None), "rescue of faces")
     planner.spent("rescue of faces", rescued_faces=meshed.rescued, lost_faces=meshed.lost)

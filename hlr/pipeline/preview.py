@@ -155,7 +155,7 @@ def _coarse(facts: Facts) -> Note:
 def _facts(scene: Scene, camera: Camera, eye: _kernel.Lens, unit: float) -> Facts:
     surfaces = scene.true_surfaces
     return Facts(
-        curved=0 if surfaces is None else int((~surfaces.planar).sum()),
+        curved=0 if surfaces is None else len(surfaces.planar) - surfaces.planar_faces,
         faces=surfaces is not None,
         perspective=camera.eye is not None,
         depth=depth_step(eye) * unit,

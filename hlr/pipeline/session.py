@@ -164,7 +164,7 @@ class Session:
         if all([placement.settled for placement in self.placements]):
             return
         surfaces = self.scene.true_surfaces
-        bends = surfaces is not None and bool(surfaces.curved.any() or (np.diff(self.scene.walks.offsets) > 1).any())
+        bends = surfaces is not None and bool(surfaces.curved_faces or (np.diff(self.scene.walks.offsets) > 1).any())
         traced, fitted = [], []
         for draft in drafts:
             image = draft.image

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from hlr.request.effect import ASKED, SCENE, Effect, Facts
+from hlr.request.effect import ASKED, SCENE, Answer, Effect, Facts
 from hlr.request.options import Options
 from hlr.tables.line_classes import LINE_CLASSES, LineClass, counted
 from hlr.tables.readers import is_brep, of_kind
@@ -17,8 +17,6 @@ DEEP_GROUPS, DEEP_EDGES = 400, 8000
 
 LEGIBILITY = "legibility"
 """The row of what the pen can show."""
-
-Answer = tuple[bool, str]
 
 
 def _count(number: int, what: str, plural: str = "") -> str:

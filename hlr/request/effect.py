@@ -75,8 +75,11 @@ class Facts(NamedTuple):
     pixel: float = 1.0
 
 
-Needed = Callable[[Facts, Any], tuple[bool, str]]
-"""(facts, options) -> whether the effect is needed, and why or why not."""
+Answer = tuple[bool, str]
+"""Whether an effect is needed, and why or why not."""
+
+Needed = Callable[[Facts, Any], Answer]
+"""(facts, options) -> the answer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +166,8 @@ class Planner:
         self._rows = {effect.name: effect for effect in table}
         self._options = options
         self._force = _FORCED.get() if force is None else force
-        self._answers: dict[str, tuple[bool, str]] = {}
+        self._answers: dict[str, Answer] = {}
+        self._open: dict[str, Facts] = {}
         self._seconds: dict[str, float] = {}
         self._counts: dict[str, Mapping[str, int]] = {}
         self.took = 0.0
@@ -178,12 +182,21 @@ class Planner:
 
         What the effect has cost so far stays: a model may be meshed twice.
         """
+        self._open.pop(name, None)
+        answer = self._answers[name] = self._answer(name, facts)
+        return answer[0]
+
+    def state(self, facts: Facts, *names: str) -> None:
+        """State the facts for effects that no step waits for: they are decided when somebody reads the decisions."""
+        for name in names:
+            self._open[name] = facts
+
+    def _answer(self, name: str, facts: Facts) -> Answer:
         effect = self._rows[name]
         answer = effect.needed(facts, self._options)
         if self._force and not answer[0] and effect.origin == SCENE:
-            answer = True, f"forced; else off: {answer[1]}"
-        self._answers[name] = answer
-        return answer[0]
+            return True, f"forced; else off: {answer[1]}"
+        return answer
 
     def deciding(self) -> _Deciding:
         """A block whose time is that of finding out what to decide."""
@@ -209,13 +222,15 @@ class Planner:
 
     def revised(self, name: str, on: bool, reason: str) -> None:
         """Change a decision that proved wrong while the work was done."""
+        self._open.pop(name, None)
         self._answers[name] = on, reason
 
     def fork(self) -> Planner:
         """A planner for one view, which begins with the decisions made for all views."""
         other = Planner((), self._options, self._force)
         other._rows, other.took = self._rows, self.took
-        other._answers, other._seconds, other._counts = self._answers.copy(), self._seconds.copy(), self._counts.copy()
+        other._answers, other._open = self._answers.copy(), self._open.copy()
+        other._seconds, other._counts = self._seconds.copy(), self._counts.copy()
         return other
 
     def cost(self, name: str) -> Mapping[str, int]:
@@ -225,10 +240,11 @@ class Planner:
     def decisions(self, counters: Mapping[str, int] | None = None) -> tuple[Decision, ...]:
         """All that was decided, in the order of the table; counters: of the finished drawing."""
         found = counters or {}
+        answers = self._answers | {name: self._answer(name, facts) for name, facts in self._open.items()}
         out = []
         for name, effect in self._rows.items():
-            if name in self._answers:
-                on, reason = self._answers[name]
+            if name in answers:
+                on, reason = answers[name]
                 counted = self.cost(name)
                 counts = {c: int(found.get(c, counted.get(c, 0))) for c in effect.counters}
                 out.append(Decision(name, on, effect.origin, reason, self._seconds.get(name) if on else None, counts))

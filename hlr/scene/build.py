@@ -13,7 +13,7 @@ from hlr.errors import SourceError
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
-from hlr.scene.clash import find_clashes, no_clashes, self_intersecting_parts
+from hlr.scene.clash import find_clashes, self_intersecting_parts
 from hlr.scene.creases import creases
 from hlr.scene.defects import defect_notes, part_reports
 from hlr.scene.duplicates import without_duplicates
@@ -44,7 +44,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
     edges, offsets, edge_group, kind = mesh.edges, mesh.offsets, found.edge_group, found.edge_kind
     groups = found.groups()
     walks, facets, drawn = found.walks(), None, None
-    if not brep.all() and len(edges):
+    if tables.breps < len(tables) and len(edges):
         reliable = reliable_normals(mesh, points, tables.triangles, found.triangle_part, tables.precision)
         turned = found.turned
         facets = reliable.normals if turned is None else np.where(turned[:, None], -reliable.normals, reliable.normals)
@@ -56,19 +56,16 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         np.copyto(kind[: len(crease_kind)], crease_kind, where=crease_kind != INTERIOR)
         drawn = np.bincount(edge_part[crease_kind != INTERIOR], minlength=len(brep)).tolist()
     with plan.deciding():
-        meeting = int(np.count_nonzero(groups.meeting()))
-    begin = perf_counter()
-    if plan.on("intersection search", Facts(meeting=meeting, folded=int(np.count_nonzero(found.folded)))):
+        meeting = groups.meeting()
+    begin, met = perf_counter(), None
+    if plan.on("intersection search", Facts(meeting=meeting, folded=found.folded)):
         met = find_clashes(found, groups, deflection)
         met = replace(met, through=met.through | self_intersecting_tori(whole, found))
-    else:
-        met = no_clashes(len(groups))
-    plan.spent("intersection search", perf_counter() - begin, clash_tests=met.tests)
+    plan.spent("intersection search", perf_counter() - begin, clash_tests=0 if met is None else met.tests)
     true, intersections = _true_surfaces(whole, found), None
-    parts = part_reports(
-        whole, doubled, found, mesh.offsets, drawn, self_intersecting_parts(met, group_part), meshed.surface_parts
-    )
-    groups = groups.unsound(met.through | found.welded)
+    crossed = set() if met is None else self_intersecting_parts(met, group_part)
+    parts = part_reports(whole, doubled, found, mesh.offsets, drawn, crossed, meshed.surface_parts)
+    groups = groups.unsound(found.welded if met is None else met.through | found.welded)
 
     if len(found.loose):
         # Free edges: no triangles; in a group of their own per part.
@@ -77,11 +74,11 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         groups, own_group = groups.with_wires(points, found.loose, owner.astype(np.int64), False)
         edges, edge_part = np.concatenate([edges, found.loose]), np.concatenate([edge_part, owner])
         edge_group = np.concatenate([edge_group, own_group])
-    if len(met.edges):
+    if met is not None and len(met.edges):
         lines = met.edges + np.int32(len(points))
         points = np.concatenate([points, met.points])
-        crossed, intersections = intersection_lines(met, found, tables, true, len(edges), deflection)
-        walks = walks.merged(crossed)
+        along, intersections = intersection_lines(met, found, tables, true, len(edges), deflection)
+        walks = walks.merged(along)
         pair = met.group[:, 0].astype(np.int64) << 32 | met.group[:, 1]
         groups, own_group = groups.with_wires(points, lines, pair, True)
         edges, edge_part = (
@@ -110,10 +107,11 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         edge_curved=np.concatenate([found.edge_curved, np.zeros(added, bool)]) if added else found.edge_curved,
         groups=groups,
         walks=walks,
+        has_faces=brep & (tables.face_start[1:] > tables.face_start[:-1]),
         parts=parts,
         notes=(*meshed.notes, *defect_notes(parts)),
         true_surfaces=true,
-        convex=len(found.folded) == 1 and not found.folded[0],
+        convex=len(group_part) == 1 and not found.folded,
         facets=facets,
         intersections=intersections,
     )
@@ -123,14 +121,14 @@ def _repaired(whole: PartMeshes, plan: Planner) -> tuple[PartMeshes, MeshFacts, 
     """The parts without duplicates, their edges, and the number of triangles left out of each."""
     mesh, doubled = _facts(whole), [0] * len(whole)
     with plan.deciding():
-        repeated = list(zip(mesh.triangles_repeated(), whole.tables.places_repeated(), strict=True))
-        some = [i for i, which in enumerate(repeated) if any(which)]
+        triangles, places = mesh.triangles_repeated(), whole.tables.places_repeated()
+        some = [i for i, both in enumerate(zip(triangles, places, strict=True)) if True in both]
     begin = perf_counter()
     if plan.on("repair", Facts(repeated=bool(some))):
         changed = {}
         for i in some:
             before = whole[i]
-            part, staying = without_duplicates(before, *repeated[i])
+            part, staying = without_duplicates(before, triangles[i], places[i])
             doubled[i] = len(before.triangles) - len(staying)
             if doubled[i]:
                 changed[i] = Fewer(staying, part.edge_nodes)
@@ -186,5 +184,7 @@ def _true_surfaces(whole: PartMeshes, found: MeshScene) -> TrueSurfaces | None:
         inward=found.face_inward,
         curved=found.face_curved,
         planar=tables.face_planar,
+        curved_faces=found.curved_faces,
+        planar_faces=tables.planar_faces,
         surfaces=whole.surfaces,
     )

@@ -20,7 +20,6 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr._kernel import Groups, MeshScene
-from hlr.common.distinct import distinct
 from hlr.common.types import Floats, Ints
 from hlr.request.accuracy import CONTACT, CONTACT_PLANAR, MESH_CONTACT
 
@@ -41,14 +40,8 @@ class Clashes:
     group: Ints
     triangle: Ints
     through: npt.NDArray[np.bool_]
-    tests: int = 0
+    tests: int
     """Pairs of triangles that were tested."""
-
-
-def no_clashes(groups: int) -> Clashes:
-    """The result without intersections. groups: their number."""
-    none = np.zeros((0, 2), np.int32)
-    return Clashes(np.zeros((0, 3)), none, none, none, np.zeros(groups, bool))
 
 
 def find_clashes(found: MeshScene, groups: Groups, deflection: float) -> Clashes:
@@ -57,9 +50,7 @@ def find_clashes(found: MeshScene, groups: Groups, deflection: float) -> Clashes
     return Clashes(*found.crossings(groups, contact, deflection))
 
 
-def self_intersecting_parts(met: Clashes, part_of_group: Ints) -> Ints:
+def self_intersecting_parts(met: Clashes, part_of_group: Ints) -> set[int]:
     """Indices of the parts that intersect themselves."""
-    if not len(met.group) and not met.through.any():
-        return np.zeros(0, np.int32)
     a, b = part_of_group[met.group[:, 0]], part_of_group[met.group[:, 1]]
-    return np.asarray(distinct(np.concatenate([a[a == b], part_of_group[np.flatnonzero(met.through)]])), np.int32)
+    return {*a[a == b].tolist(), *part_of_group[met.through].tolist()}

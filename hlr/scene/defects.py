@@ -25,7 +25,7 @@ def part_reports(
     found: MeshScene,
     offsets: Ints,
     drawn: list[int] | None,
-    crossed: Ints,
+    crossed: Collection[int],
     surface_parts: Callable[[], Collection[str]],
 ) -> tuple[ScenePart, ...]:
     """One report per part: identity, counts and defects.
@@ -34,23 +34,22 @@ def part_reports(
     parts without B-rep, None where there are none; crossed: numbers of parts whose surfaces pass through one another;
     surface_parts: the names of parts that are faces outside all solids.
     """
-    through = set(crossed.tolist())
-    tables = whole.tables
-    brep = tables.brep.tolist()
-    faces = (tables.face_start[1:] - tables.face_start[:-1]).tolist()
-    own = drawn or [0] * len(brep)
     reports = found.reports
-    is_open = any(report[0] for report in reports)
-    bordering = _border_edges(found, offsets, len(brep)) if is_open and any(brep) else [0] * len(brep)
-    named = surface_parts() if is_open else ()
+    none = [0] * len(reports)
+    own, bordering = drawn or none, none
+    named: Collection[str] = ()
+    if any([counts[0] for _, _, counts in reports]):
+        named = surface_parts()
+        if whole.tables.breps:
+            bordering = _border_edges(found, offsets, len(reports))
     out = []
-    for i, (label, counts) in enumerate(zip(whole.labels, reports, strict=True)):
+    for i, (label, (brep, faces, counts)) in enumerate(zip(whole.labels, reports, strict=True)):
         border, crowded, turned, flat, unclosed, outside_in, triangles, edges = counts
         of_surfaces, open_edges = label.name in named, 0
         defects = []
         if doubled[i]:
             defects.append(_count(doubled[i], "duplicated triangle"))
-        if flat and not brep[i]:  # in a B-rep they are due to the tessellation, not to the model
+        if flat and not brep:  # in a B-rep they are due to the tessellation, not to the model
             defects.append(_count(flat, "triangle") + " without area")
         if border and not (of_surfaces and _is_flat(whole, i)):
             shown = bordering[i] or border
@@ -62,16 +61,16 @@ def part_reports(
             defects.append(_count(turned, "edge") + " between faces of opposite orientation")
         if outside_in:
             pieces = _count(outside_in, "closed piece") + " turned inside out"
-            defects.append("the solid is turned inside out" if brep[i] else pieces)
-        if i in through:
+            defects.append("the solid is turned inside out" if brep else pieces)
+        if i in crossed:
             defects.append("the surface passes through itself")
         out.append(
             ScenePart(
                 name=label.name,
                 color=label.color,
                 transform=label.transform,
-                faces=faces[i] if brep[i] else 0,
-                edges=edges if brep[i] else own[i],
+                faces=faces if brep else 0,
+                edges=edges if brep else own[i],
                 triangles=triangles,
                 closed=triangles > 0 and not border and not unclosed,
                 oriented=turned == 0,

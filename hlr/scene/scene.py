@@ -20,7 +20,7 @@ class TrueSurfaces:
     corner (t, 3) into uv (k, 2): parameters at the corners, -1 for parts without B-rep
     first (p,) the number of each part's first face; number (f,) of its surface in `surfaces`
     place (f, 3, 4) from the surface's frame into the model; inward (f,) bool; curved (f,) bool: may show an outline
-    planar (f,) bool
+    planar (f,) bool; curved_faces, planar_faces: how many are
     """
 
     corner: Ints
@@ -31,6 +31,8 @@ class TrueSurfaces:
     inward: npt.NDArray[np.bool_]
     curved: npt.NDArray[np.bool_]
     planar: npt.NDArray[np.bool_]
+    curved_faces: int
+    planar_faces: int
     surfaces: Surfaces
 
     def of(self, wanted: npt.NDArray[np.bool_], face: Ints) -> _kernel.TrueSurfaces:
@@ -97,6 +99,7 @@ class Geometry:
     edge_kind (e,): an EdgeClass or INTERIOR; edge_curved (e,) bool: a curved surface may show its outline there.
     true_surfaces: None where no part has a B-rep.
     walks: edges of the source, creases and borders of meshes, intersection lines and outlines as walks over edges.
+    has_faces (p,) bool: the part has faces of a B-rep.
     convex: everything is one convex body, as far as floating point tells.
     intersections: None where no intersection line is curved.
     facets (t, 3): normals of bare meshes, zero where the coordinates are too coarse for one; None: all is B-rep.
@@ -118,6 +121,7 @@ class Geometry:
     edge_curved: npt.NDArray[np.bool_]
     groups: _kernel.Groups
     walks: _kernel.Walks
+    has_faces: npt.NDArray[np.bool_]
     parts: tuple[ScenePart, ...]
     true_surfaces: TrueSurfaces | None = None
     convex: bool = False

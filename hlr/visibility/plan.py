@@ -77,10 +77,8 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
     )
     loose = Facts(meeting=near, unsound=counts.unsound_not_culled)
     view = Facts(pictorial=image.camera.pictorial)
-    for name in ("hidden lines", *(row.title for row in counted()), "circles of meshes", "colours"):
-        planner.on(name, view)
-    planner.on("back-face culling", facts)
-    planner.on(LEGIBILITY)
+    planner.state(view, "hidden lines", *[row.title for row in counted()], "circles of meshes", "colours", LEGIBILITY)
+    planner.state(facts, "back-face culling")
     touch = planner.on("contact tolerance", loose)
     sought = image.walks.bent()
     sought += 0 if image.silhouettes is None else len(image.silhouettes.curves.kind)

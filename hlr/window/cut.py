@@ -40,7 +40,7 @@ def cut_at_window(
 ) -> tuple[Sequence[Line], Fill | None, tuple[Note, ...]]:
     """The lines and fill inside the window. frame None: no window was asked for, nothing is cut."""
     if frame is None:
-        planner.on(EFFECT)
+        planner.state(Facts(), EFFECT)
         return lines, fill, ()
     begun = perf_counter()
     whole = _around(lines, fill)

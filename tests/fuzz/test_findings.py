@@ -85,7 +85,7 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
         mesh,
         nothing,
         nothing,
-        np.zeros(1, bool),
+        np.ones(1, bool),
         found,
     )
     cut = _kernel.Cut(
@@ -94,7 +94,6 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
         found,
         chains,
         np.zeros(1, np.uint8),
-        np.zeros(1, bool),
         _kernel.LineTolerances(
             accuracy=0.1,
             short=0.1,
@@ -110,7 +109,7 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
         ),
         True,
     )
-    lines, _ = cut.finished(None, np.zeros((0, 3, 4)), np.full(1, -1, np.int32), np.zeros(1, np.int32), np.zeros(1))
+    lines, _ = cut.finished()
     held = lines.columns()
     points, offsets = held["points"].tolist(), held["offsets"].tolist()
     return sorted(points[i:j] for i, j in itertools.pairwise(offsets))

@@ -26,7 +26,7 @@ def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper) -> 
     deflection = drawing.accuracy.deflection
     options = Options(crease=drawing.request.options.crease)
     scene, _ = Session(opened, [], options).scene_at(deflection)
-    bare = np.array([p.faces == 0 for p in scene.parts], bool)
+    bare = ~scene.has_faces
     wanted = np.array([bare[x.part] and x.kind != "intersection" for x in drawing.lines], bool)
     mine = np.flatnonzero(wanted[drawn.line]) if len(wanted) else np.zeros(0, np.int64)
     if len(mine) == 0:

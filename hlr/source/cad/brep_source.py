@@ -218,10 +218,11 @@ class BrepSource:
             ) from None
         prototypes, kept, notes = self._used_numbers, self._parts, []
         transforms = np.ascontiguousarray(self._places[:, :3])
-        starts = tables.triangle_start
-        triangles = (starts[1:] - starts[:-1])[prototypes]
-        if faults or not triangles.all():
-            meshed = (triangles > 0) | ~np.array(self._prototypes.has_faces)[self._prototype_numbers]
+        fewest, triangles = tables.fewest_and_all(prototypes)
+        if faults or not fewest:
+            starts = tables.triangle_start
+            triangles_of = (starts[1:] - starts[:-1])[prototypes]
+            meshed = (triangles_of > 0) | ~np.array(self._prototypes.has_faces)[self._prototype_numbers]
             kept = [part for part, is_meshed in zip(self._parts, meshed, strict=True) if is_meshed]
             for part, number, is_meshed in zip(self._parts, prototypes.tolist(), meshed.tolist(), strict=True):
                 a, b = tables.face_start[number : number + 2]
@@ -236,7 +237,7 @@ class BrepSource:
             first = tables.face_start
             faces = (tables.face_shape[first[i] : first[i + 1]] for i in self._used_numbers)
             notes.append(faults.off_note((part.name, own) for part, own in zip(self._parts, faces, strict=True)))
-        check_triangle_count(int(triangles.sum()))
+        check_triangle_count(triangles)
         placed = tables.placed(prototypes, transforms, _precisions(tables)[prototypes])
 
         def edge_curves(part: Ints, edge: Ints) -> EdgeCurves:
@@ -245,7 +246,7 @@ class BrepSource:
             found = surfaces.edge_curves((distinct >> 32).astype(np.int32), distinct.astype(np.int32))
             return EdgeCurves(found, which.ravel().astype(np.int32), part, transforms)
 
-        parts = PartMeshes(kept, placed, surfaces if placed.brep.any() else None)
+        parts = PartMeshes(kept, placed, surfaces if placed.breps else None)
         rescued = len(faults.rescued) + len(faults.crossed)
         return Tessellation(parts, notes, rescued, len(faults.lost), edge_curves, self._surface_parts)
 
@@ -256,10 +257,10 @@ class BrepSource:
 
 def _precisions(tables: _kernel.PartTables) -> Floats:
     """(p,) coordinate precision of parts that a file stores as triangles alone; 0 for all others."""
-    out, brep = np.zeros(len(tables)), tables.brep
-    if brep.all():
+    out = np.zeros(len(tables))
+    if tables.breps == len(tables):
         return out
-    for i in np.flatnonzero(~brep).tolist():
+    for i in np.flatnonzero(~tables.brep).tolist():
         a, b = tables.point_start[i : i + 2]
         out[i] = coordinate_precision(tables.points[a:b])
     return out

@@ -62,7 +62,11 @@ fn chosen(walks: &Columns, drawn: &[bool]) -> Found {
 
 /// The walks over mesh edges that become lines.
 #[pyclass(frozen)]
-pub struct Chains(pub(super) Arc<Found>);
+pub struct Chains {
+    pub(super) found: Arc<Found>,
+    /// Per part: it has faces of a B-rep.
+    pub(super) has_faces: Vec<bool>,
+}
 
 #[pymethods]
 impl Chains {
@@ -107,30 +111,30 @@ impl Chains {
             expect_below("classes of walks", walks.0.kind.iter().map(|&kind| i32::from(kind)), input.drawn.len())?;
             let mut out = chosen(&walks.0, &input.drawn);
             add_outlines(&surface, &found.edge, &mut out);
-            Ok(Chains(Arc::new(out)))
+            Ok(Chains { found: Arc::new(out), has_faces: surface.has_faces.to_vec() })
         })
     }
 
     #[getter]
     fn offsets<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
-        self.0.offsets.clone().into_pyarray(py)
+        self.found.offsets.clone().into_pyarray(py)
     }
 
     #[getter]
     fn edges<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
-        self.0.edges.clone().into_pyarray(py)
+        self.found.edges.clone().into_pyarray(py)
     }
 
     #[getter]
     fn reversed<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        self.0.reversed.clone().into_pyarray(py)
+        self.found.reversed.clone().into_pyarray(py)
     }
 
     /// The first mesh edge of each chain.
     #[getter]
     fn first<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
-        let starts = &self.0.offsets[..self.0.about.len()];
-        starts.iter().map(|&i| self.0.edges[i as usize]).collect::<Vec<_>>().into_pyarray(py)
+        let starts = &self.found.offsets[..self.found.about.len()];
+        starts.iter().map(|&i| self.found.edges[i as usize]).collect::<Vec<_>>().into_pyarray(py)
     }
 
     #[getter]
@@ -152,10 +156,16 @@ impl Chains {
     fn straight<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
         self.column(py, |a| a.straight)
     }
+
+    /// Whether all chains along edges of the source are straight.
+    #[getter]
+    fn all_straight(&self) -> bool {
+        self.found.about.iter().all(|a| a.straight || a.edge < 0)
+    }
 }
 
 impl Chains {
     fn column<'py, T: numpy::Element>(&self, py: Python<'py>, of: impl Fn(&About) -> T) -> Bound<'py, PyArray1<T>> {
-        self.0.about.iter().map(of).collect::<Vec<T>>().into_pyarray(py)
+        self.found.about.iter().map(of).collect::<Vec<T>>().into_pyarray(py)
     }
 }

@@ -62,9 +62,9 @@ arrays! { Groups {
         self.changed(&which, Columns::unsound)
     }
 
-    /// Whether the box of each group comes near that of another.
-    fn meeting<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<bool>>> {
-        Ok(self.within(0.0)?.into_pyarray(py))
+    /// How many groups have a box that comes near that of another.
+    fn meeting(&self) -> PyResult<usize> {
+        Ok(self.within(0.0)?.into_iter().filter(|&meets| meets).count())
     }
 }
 

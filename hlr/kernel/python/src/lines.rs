@@ -56,6 +56,15 @@ impl LineTolerances {
     }
 }
 
+/// Curves, their places, and per chain its curve, -1 for none, its place, and how far the curve rises above its chords.
+type Along<'py> = (
+    PyRef<'py, Records>,
+    PyReadonlyArray3<'py, f64>,
+    PyReadonlyArray1<'py, i32>,
+    PyReadonlyArray1<'py, i32>,
+    PyReadonlyArray1<'py, f64>,
+);
+
 /// Lines on paper, chained, merged and thinned out, before curves are fitted to them.
 #[pyclass(frozen)]
 pub struct Cut {
@@ -73,8 +82,8 @@ pub struct Cut {
 #[pymethods]
 impl Cut {
     #[new]
-    #[pyo3(signature = (camera, mesh, found, chains, ranks, without_brep, tolerances, hidden, true_points = None))]
-    #[allow(clippy::too_many_arguments)] // four objects, two tables and what is asked for
+    #[pyo3(signature = (camera, mesh, found, chains, ranks, tolerances, hidden, true_points = None))]
+    #[allow(clippy::too_many_arguments)] // four objects, a table and what is asked for
     fn new(
         py: Python<'_>,
         camera: &Camera,
@@ -82,24 +91,23 @@ impl Cut {
         found: &Visibility,
         chains: &Chains,
         ranks: PyReadonlyArray1<'_, u8>,
-        without_brep: PyReadonlyArray1<'_, bool>,
         tolerances: &LineTolerances,
         hidden: bool,
         true_points: Option<PyReadonlyArray2<'_, f64>>,
     ) -> PyResult<Cut> {
         caught(py, || {
-            let (camera, chains) = (camera.0, &chains.0);
+            let (camera, has_faces, chains) = (camera.0, &chains.has_faces, &chains.found);
             let reading = mesh.reading(py)?;
             let all = reading.slices()?;
             let (meshed, edges) = (all.points, all.edges);
             let space = true_points.as_ref().map(|p| rows(p, "true_points")).transpose()?.unwrap_or(meshed);
             expect_len("true_points", space.len(), meshed.len())?;
-            let (ranks, without_brep) = (flat(&ranks, "ranks")?, flat(&without_brep, "without_brep")?);
+            let ranks = flat(&ranks, "ranks")?;
             let (cutting, fit) = (tolerances.cut, tolerances.fit);
             expect_below("chains", chains.edges.iter().copied(), edges.len())?;
             expect_below("found", found.edge.iter().copied(), edges.len())?;
             expect_below("classes of chains", chains.about.iter().map(|a| i32::from(a.kind.0)), ranks.len())?;
-            expect_below("parts of chains", chains.about.iter().map(|a| a.part), without_brep.len())?;
+            expect_below("parts of chains", chains.about.iter().map(|a| a.part), has_faces.len())?;
             if !found.hidden.is_empty() {
                 expect_len("edges of found", found.hidden.len(), edges.len())?;
             }
@@ -107,7 +115,8 @@ impl Cut {
             let behind = |c: usize| found.hidden.get(chains.edges[chains.offsets[c] as usize] as usize) == Some(&true);
             let trait_of = |(c, about): (usize, &About)| Trait {
                 rank: ranks[about.kind.0 as usize] + u8::from(behind(c)),
-                without_brep: without_brep[about.part as usize],
+                // The contours of meshes are smoothed; those of a B-rep's mesh have no accuracy left for it.
+                without_brep: !has_faces[about.part as usize],
                 noisy: about.noisy,
             };
             let traits: Vec<Trait> = chains.about.iter().enumerate().map(trait_of).collect();
@@ -146,20 +155,15 @@ impl Cut {
     }
 
     /// The lines with their curves, and their lower left corner. Can be called only once.
-    #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
-    fn finished(
-        &self,
-        py: Python<'_>,
-        curves: Option<&Records>,
-        places: PyReadonlyArray3<'_, f64>,
-        curve: PyReadonlyArray1<'_, i32>,
-        place: PyReadonlyArray1<'_, i32>,
-        bulge: PyReadonlyArray1<'_, f64>,
-    ) -> PyResult<(Lines, (f64, f64))> {
+    #[pyo3(signature = (along = None))]
+    fn finished(&self, py: Python<'_>, along: Option<Along<'_>>) -> PyResult<(Lines, (f64, f64))> {
+        let Some((curves, places, curve, place, bulge)) = along else {
+            return self.made(py, &Curves::default(), |_| (None, 0, 0.0));
+        };
         let curves = Curves {
-            known: curves.is_some(),
-            curves: curves.map_or(Vec::new(), |c| c.curves.clone()),
-            ranges: curves.map_or(Vec::new(), |c| c.ranges.clone()),
+            known: true,
+            curves: curves.curves.clone(),
+            ranges: curves.ranges.clone(),
             places: matrices(&places)?.to_vec(),
         };
         let (curve, place, bulge) = (flat(&curve, "curve")?, flat(&place, "place")?, flat(&bulge, "bulge")?);
@@ -169,15 +173,29 @@ impl Cut {
         expect_below("curve", curve.iter().copied().filter(|&c| c >= 0), curves.curves.len())?;
         let used = |c: &usize| curve[*c] >= 0;
         expect_below("place", (0..place.len()).filter(used).map(|c| place[c]), curves.places.len())?;
+        self.made(py, &curves, |c| (u32::try_from(curve[c]).ok(), place[c] as u32, bulge[c]))
+    }
+}
+
+impl Cut {
+    /// along: the curve, the place and the bulge of a chain.
+    fn made(
+        &self,
+        py: Python<'_>,
+        curves: &Curves,
+        along: impl Fn(usize) -> (Option<u32>, u32, f64),
+    ) -> PyResult<(Lines, (f64, f64))> {
         let about = &self.chains.about;
-        let guides: Vec<Guide> = (0..curve.len())
-            .map(|c| guide(&about[c], &self.traits[c], u32::try_from(curve[c]).ok(), place[c] as u32, bulge[c]))
-            .collect();
+        let of = |(c, (about, of)): (usize, (&About, &Trait))| {
+            let (curve, place, bulge) = along(c);
+            guide(about, of, curve, place, bulge)
+        };
+        let guides: Vec<Guide> = about.iter().zip(&self.traits).enumerate().map(of).collect();
         let held = self.found.lock().unwrap_or_else(PoisonError::into_inner).take();
         let found = held.ok_or_else(|| PyValueError::new_err("these lines were finished before"))?;
         let size = found.lines.iter().map(|line| line.flat.len()).sum();
         let (lines, [x, y]) =
-            run(py, size, |_| finish(found, about, &guides, &curves, &self.camera, &self.fit, self.hidden))?;
+            run(py, size, |_| finish(found, about, &guides, curves, &self.camera, &self.fit, self.hidden))?;
         Ok((Lines::of(lines), (x, y)))
     }
 }

@@ -205,6 +205,27 @@ arrays! { PartTables {
         Ok(PartTables(Arc::new(py.detach(|| self.0.with_triangles(chosen, nodes)))))
     }
 
+    /// How many parts have a B-rep.
+    #[getter]
+    fn breps(&self) -> usize {
+        self.0.brep.iter().filter(|&&brep| brep).count()
+    }
+
+    /// How many faces are planar.
+    #[getter]
+    fn planar_faces(&self) -> usize {
+        self.0.face_planar.iter().filter(|&&planar| planar).count()
+    }
+
+    /// The fewest triangles that one of these parts has, and how many all have; none: 0.
+    fn fewest_and_all(&self, part: PyReadonlyArray1<'_, i32>) -> PyResult<(usize, usize)> {
+        let part = slice(&part, "part")?;
+        expect_below("part", part.iter().copied(), self.0.len())?;
+        let start = &self.0.triangle_start;
+        let counts = || part.iter().map(|&p| (start[p as usize + 1] - start[p as usize]) as usize);
+        Ok((counts().min().unwrap_or(0), counts().sum()))
+    }
+
     /// Whether all coordinates are finite and nearer to the origin than this.
     fn within(&self, largest: f64) -> bool {
         self.0.within(largest)
@@ -349,7 +370,6 @@ arrays! { MeshScene {
     edge_curved: flat Flat<'py, bool> = |s| &s.scene.edge_curved;
     group_part: flat Flat<'py, i32> = |s| &s.scene.bodies.part_of;
     welded: flat Flat<'py, bool> = |s| &s.scene.bodies.welded;
-    folded: flat Flat<'py, bool> = |s| &s.scene.folded;
     corner: rows Rows<'py, i32> = |s| s.scene.surfaces.corner.as_ref().unwrap_or(&s.tables.corner);
     face_place: matrices Bound<'py, PyArray3<f64>> = |s| &s.scene.surfaces.place;
     face_inward: flat Flat<'py, bool> = |s| &s.scene.surfaces.inward;
@@ -385,14 +405,28 @@ arrays! { MeshScene {
         crossings(py, (&self.tables, &self.facts, &self.scene), groups, contact, deflection)
     }
 
+    /// How many groups are not surely one convex body.
+    #[getter]
+    fn folded(&self) -> usize {
+        self.scene.folded.iter().filter(|&&folded| folded).count()
+    }
+
+    /// How many faces may show an outline.
+    #[getter]
+    fn curved_faces(&self) -> usize {
+        self.scene.surfaces.curved.iter().filter(|&&curved| curved).count()
+    }
+
     /// Properties of its groups.
     fn groups(&self) -> Groups {
         Groups(self.scene.bodies.groups.clone())
     }
 
-    /// Per part: its counts, as `Report` lists them.
+    /// Per part: whether it has a B-rep, its faces, and its counts, as `Report` lists them.
     #[getter]
-    fn reports(&self) -> Vec<[i64; 8]> {
-        self.scene.reports.clone()
+    fn reports(&self) -> Vec<(bool, i32, [i64; 8])> {
+        let faces = self.tables.face_start.windows(2).map(|w| w[1] - w[0]);
+        let of = |((&brep, faces), &counts): ((&bool, i32), &[i64; 8])| (brep, faces, counts);
+        self.tables.brep.iter().zip(faces).zip(&self.scene.reports).map(of).collect()
     }
 }

@@ -15,8 +15,9 @@ use hlr_accuracy::JUNCTION_PIERCED;
 use hlr_brep::geometry::curve::{Curve, Vec3};
 
 /// Curves in space, their parameter ranges, and their possible places: matrices into the model, row by row.
+#[derive(Default)]
 pub struct Curves {
-    /// Whether any curves may be known. If not, no line ends on another's curve.
+    /// Whether any curves are known. If not, no line ends on another's curve.
     pub known: bool,
     pub curves: Vec<Option<Curve>>,
     pub ranges: Vec<[f64; 2]>,
