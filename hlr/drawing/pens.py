@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
@@ -61,9 +61,20 @@ class PenSet:
     rules: tuple[LineRule, ...]
     wide: float
     narrow: float
+    _pens: dict[tuple[str | None, bool], Pen] = field(default_factory=dict, repr=False, compare=False)
+
+    def of(self, parts: Sequence[int]) -> PenSet:
+        """The same pens for these parts."""
+        return PenSet(tuple(parts), self.rules, self.wide, self.narrow, self._pens)
 
     def pen(self, kind: str | None, visible: bool) -> Pen:
-        """The pen of a line class; kind None: what holds for all classes."""
+        """The pen of a line class; kind None: what holds for all classes. Worked out once."""
+        pen = self._pens.get((kind, visible))
+        if pen is None:
+            pen = self._pens[kind, visible] = self._pen(kind, visible)
+        return pen
+
+    def _pen(self, kind: str | None, visible: bool) -> Pen:
         width: Width = "wide"
         color, dash, cap = "#000000", None, None
         for rule in self.rules:
@@ -104,15 +115,15 @@ def usual_pens_of(drawing: Drawing) -> PenSet:
     return usual_pens(drawing.style, (area.width, area.height), drawing.group)
 
 
-def pens_of(drawing: Drawing) -> list[PenSet]:
-    """Sets of parts that are drawn alike, each with its pens; every part is in one set."""
-    style, area = drawing.style, drawing.area
-    wide, narrow = widths_of(style, (area.width, area.height), drawing.group)
-    usual = [rule for rule in style.lines if rule.parts is None]
+def pens_of(drawing: Drawing, usual: PenSet) -> list[PenSet]:
+    """Sets of parts that are drawn alike, each with its pens; every part is in one set. usual: `usual_pens_of` it."""
     sets = []
-    for own, parts in _alike(drawing, [rule for rule in style.lines if rule.parts is not None]).items():
-        rules = sorted((*usual, *own), key=_WEIGHT)
-        sets.append(PenSet(tuple(parts), tuple(rules), wide, narrow))
+    for own, parts in _alike(drawing, [rule for rule in drawing.style.lines if rule.parts is not None]).items():
+        if own:
+            rules = sorted((*usual.rules, *own), key=_WEIGHT)
+            sets.append(PenSet(tuple(parts), tuple(rules), usual.wide, usual.narrow))
+        else:
+            sets.append(usual.of(parts))
     return sets
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
+from operator import attrgetter
 
 import numpy as np
 import numpy.typing as npt
@@ -13,8 +14,8 @@ from hlr.image.placement import Placement
 from hlr.scene.scene import Geometry, Scene
 from hlr.source.model import Curves
 
-GEOMETRY = tuple(each.name for each in fields(Geometry))
-"""What an image takes over from its scene."""
+_geometry = attrgetter(*[each.name for each in fields(Geometry)])
+"""What an image takes over from its scene: its first fields, in their order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,5 +101,4 @@ class Image(Geometry):
 
 def image_of(scene: Scene, camera: Camera, placement: Placement) -> Image:
     """The scene before a camera, all of it, without its outlines."""
-    geometry = {name: getattr(scene, name) for name in GEOMETRY}
-    return Image(**geometry, camera=camera, placement=placement)
+    return Image(*_geometry(scene), camera=camera, placement=placement)

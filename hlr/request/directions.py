@@ -100,11 +100,14 @@ def _aimed(view: View) -> tuple[Vector, Vector | None]:
 
 def axes(direction: Vector, up_hint: Vector | None) -> tuple[Vector, Vector]:
     """The unit vectors that point right and up on paper, world axes. Raises ViewError for an up along the view."""
-    if up_hint is None:
+    if up_hint is not None:
+        up = normalized(up_hint, "up")
+    elif abs(direction[2]) > 1.0 - 1e-12:
         # Looking along z, y points up: the top view turned by nothing.
-        along_z = abs(direction[2]) > 1.0 - 1e-12
-        up_hint = (0.0, 1.0 if direction[2] > 0.0 else -1.0, 0.0) if along_z else (0.0, 0.0, 1.0)
-    side = cross(normalized(up_hint, "up"), direction)
+        up = (0.0, 1.0 if direction[2] > 0.0 else -1.0, 0.0)
+    else:
+        up = (0.0, 0.0, 1.0)
+    side = cross(up, direction)
     if max(map(abs, side)) < 1e-9:
         raise ViewError("up is parallel to the view direction: give another direction for up")
     right = normalized(side, "right")

@@ -73,7 +73,8 @@ class Layers:
         A layer of a class has the pen of the class, one of a part that of the part's visible lines.
         """
         style = self.drawing.style
-        usual, pens, classes = usual_pens_of(self.drawing), by_part(pens_of(self.drawing)), names()
+        usual = usual_pens_of(self.drawing)
+        pens, classes = by_part(pens_of(self.drawing, usual)), names()
         seen: dict[tuple[int, str | None, bool], Look] = {}
 
         def look(own: PenSet, kind: str | None, visible: bool) -> Look:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from hlr import _kernel
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line
 from hlr.drawing.lines import divided, held
-from hlr.drawing.pens import Pen, PenSet, pens_of
+from hlr.drawing.pens import Pen, PenSet, pens_of, usual_pens
 from hlr.errors import WriteError
 from hlr.tables.line_classes import LineClass, by_number, in_drawing_order
 from hlr.writers import number
@@ -70,6 +70,7 @@ class Strokes:
     """A drawing on its page, with points in grid steps of 10**-places millimetres.
 
     left, bottom, width, height: the page in the drawing's coordinates, millimetres.
+    usual: the pens of parts for which the style has no rules of their own.
     """
 
     places: int
@@ -78,6 +79,7 @@ class Strokes:
     width: float
     height: float
     inked: tuple[Inked, ...]
+    usual: PenSet
 
     @property
     def side_places(self) -> int:
@@ -99,26 +101,34 @@ def strokes(drawing: Drawing, *, cubic: bool = False) -> Strokes:
     is not finite.
     """
     x0, y0, x1, y1 = bounds = drawing.area
-    places = places_of(drawing, bounds)
-    found = [inked for pens, lines in _sets(drawing) for inked in _inked(drawing, pens, lines, places, cubic)]
+    places, usual = places_of(drawing, bounds), usual_pens(drawing.style, (x1 - x0, y1 - y0), drawing.group)
+    found = [inked for pens, lines in _sets(drawing, usual) for inked in _inked(drawing, pens, lines, places, cubic)]
     if drawing.style.layers == "class":
-        found.sort(key=lambda inked: (inked.visible, inked.row.place))
+        found.sort(key=_order)
     if drawing.page is not None:
-        return Strokes(places, x0, y0, drawing.page.width, drawing.page.height, tuple(found))
+        return Strokes(places, x0, y0, drawing.page.width, drawing.page.height, tuple(found), usual)
     step = 10.0**places
     unit = 10.0**-places
     border = math.ceil(MARGIN * 10**places)
     left, bottom = round(x0 * step) - border, round(y0 * step) - border
     right, top = round(x1 * step) + border, round(y1 * step) + border
-    return Strokes(places, left * unit, bottom * unit, (right - left) * unit, (top - bottom) * unit, tuple(found))
+    width, height = (right - left) * unit, (top - bottom) * unit
+    return Strokes(places, left * unit, bottom * unit, width, height, tuple(found), usual)
 
 
-def _sets(drawing: Drawing) -> list[tuple[PenSet, _kernel.Lines]]:
+def _order(inked: Inked) -> tuple[bool, int]:
+    """Hidden lines first, then by line class."""
+    return inked.visible, inked.row.place
+
+
+def _sets(drawing: Drawing, usual: PenSet) -> list[tuple[PenSet, _kernel.Lines]]:
     """The lines of parts that are drawn alike, or of each part where the style has a layer for each."""
-    sets = pens_of(drawing)
+    sets = pens_of(drawing, usual)
     if drawing.style.layers == "part":
-        alone = [replace(one, parts=(part,)) for one in sets for part in one.parts]
+        alone = [one.of((part,)) for one in sets for part in one.parts]
         sets = sorted(alone, key=lambda one: one.parts)
+    if len(sets) == 1:
+        return [(sets[0], held(drawing.lines))]
     own = np.zeros(len(drawing.parts), np.int64)
     for n, one in enumerate(sets):
         own[list(one.parts)] = n

@@ -23,7 +23,7 @@ from itertools import groupby
 
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.lines import held
-from hlr.drawing.pens import Pen, PenSet, part_color, usual_pens_of
+from hlr.drawing.pens import Pen, PenSet, part_color
 from hlr.drawing.printed import printed
 from hlr.drawing.scale import ratio
 from hlr.drawing.sheet import SheetView
@@ -61,7 +61,7 @@ def svg(drawing: Drawing) -> bytes:
         out.extend(svg_group(painted(drawing, drawing.fill), page.places))
     text = ["".join(out).encode("utf-8")]
     if drawing.style.layers == "class":
-        text += _lines(page.inked, root, usual_pens_of(drawing), ids=True)
+        text += _lines(page.inked, root, page.usual, ids=True)
     else:
         for pens, of_part in groupby(page.inked, lambda inked: inked.pens):
             (index,) = pens.parts
