@@ -837,12 +837,12 @@ class BrepModel:
 
     def __new__(cls, dump: bytes, chosen: Sequence[int] | None = None) -> BrepModel: ...
     @staticmethod
-    def divided(stream: bytes) -> tuple[BrepModel, list[list[tuple[int, bool, list[float] | None]]]]:
+    def divided(stream: bytes, alone: bool = False) -> tuple[BrepModel, tuple[list[list[tuple[int, bool]]], Floats]]:
         """The model of the distinct pieces of shapes in memory: of their solids, and of what lies outside solids.
 
-        stream: OpenCASCADE's stream of a compound of the shapes. For each shape its pieces: number in the model,
-        whether a solid, and where it stands in the shape, twelve numbers row by row; None: it is not moved. Raises
-        ValueError where the stream is damaged, or holds triangles.
+        stream: OpenCASCADE's stream of a compound of the shapes, or of one shape `alone`. For each shape its pieces:
+        number in the model, and whether a solid; then (n, 4, 4) where all of them stand, one shape after another.
+        Raises ValueError where the stream is damaged, or holds triangles.
         """
 
     @property

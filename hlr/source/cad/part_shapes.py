@@ -6,29 +6,29 @@ from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
+from hlr.common.types import Floats
 from hlr.source.cad.prototypes import DividedPrototypes, LivePrototypes, Prototypes, divided_by_kernel
-from hlr.source.transforms import IDENTITY, MatrixRows
+from hlr.source.transforms import MatrixRows, compose, matrices4
 
 
 class Piece(NamedTuple):
     """A solid of a shape, or all that lies outside its solids.
 
     prototype  its index among the prototypes
-    place      where it stands in the shape
     shape      without placement; None where the kernel alone has it
     """
 
     prototype: int
-    place: MatrixRows
     solid: bool
     shape: Any
 
 
 @dataclass(frozen=True, slots=True)
 class Division:
-    """The pieces of each of several shapes, and the distinct shapes of the pieces."""
+    """The pieces of each of several shapes; (n, 4, 4) where all of them stand; the distinct shapes of the pieces."""
 
     pieces: list[list[Piece]]
+    places: Floats
     prototypes: Prototypes
 
 
@@ -57,25 +57,35 @@ class PartShapes(Protocol):
         """Its underlying faces, in the order of an explorer."""
 
     def divided(self, shapes: Sequence[Any]) -> Division:
-        """The pieces of unplaced shapes; equal ones share a prototype."""
+        """The pieces of shapes; equal ones share a prototype."""
 
 
 def divided_one_by_one(
     kind: PartShapes, shapes: Sequence[Any], prototypes: Callable[[list[Any]], Prototypes]
 ) -> Division:
-    """The pieces of unplaced shapes, each asked for its own. prototypes: makes them of the distinct pieces."""
+    """The pieces of shapes, each asked for its own. prototypes: makes them of the distinct pieces."""
     numbers: dict[Hashable, int] = {}
     distinct: list[Any] = []
+    known: dict[Hashable, list[tuple[Piece, MatrixRows]]] = {}
+    pieces, places = [], []
 
-    def of(shape: Any, solid: bool) -> Piece:
-        key = kind.underlying(shape), kind.orientation(shape)
-        number = numbers.setdefault(key, len(distinct))
+    def name(shape: Any) -> Hashable:
+        return kind.underlying(shape), kind.orientation(shape)
+
+    def of(shape: Any, solid: bool) -> tuple[Piece, MatrixRows]:
+        number = numbers.setdefault(name(shape), len(distinct))
         if number == len(distinct):
             distinct.append(kind.unplaced(shape))
-        return Piece(number, kind.place(shape), solid, distinct[number])
+        return Piece(number, solid, distinct[number]), kind.place(shape)
 
-    pieces = [[of(*piece) for piece in kind.pieces(shape)] for shape in shapes]
-    return Division(pieces, prototypes(distinct))
+    for shape in shapes:
+        key = name(shape)
+        if key not in known:
+            known[key] = [of(*piece) for piece in kind.pieces(kind.unplaced(shape))]
+        outer = kind.place(shape)
+        pieces.append([piece for piece, _ in known[key]])
+        places += [compose(outer, inner) for _, inner in known[key]]
+    return Division(pieces, matrices4(places), prototypes(distinct))
 
 
 class OcctShapes:
@@ -150,9 +160,7 @@ class LiveShapes(OcctShapes):
         found = divided_by_kernel(shapes)
         if found is None:
             return super().divided(shapes)
-        model, pieces = found
-        of = [
-            [Piece(part, IDENTITY if place is None else tuple(place), solid, None) for part, solid, place in each]
-            for each in pieces
-        ]
-        return Division(of, DividedPrototypes(model, lambda: OcctShapes.divided(self, shapes).prototypes.shapes))
+        model, (pieces, places) = found
+        of = [[Piece(part, solid, None) for part, solid in each] for each in pieces]
+        prototypes = DividedPrototypes(model, lambda: OcctShapes.divided(self, shapes).prototypes.shapes)
+        return Division(of, places, prototypes)

@@ -11,7 +11,6 @@ from hlr.common.types import Color, Floats, Rgba
 from hlr.drawing.notes import Note
 from hlr.source.cad.part_shapes import PartShapes, Piece
 from hlr.source.model import DEFAULT_COLOR, Appearance, rgba
-from hlr.source.transforms import MatrixRows, compose, matrices4
 
 
 @dataclass(slots=True)
@@ -70,23 +69,17 @@ class PartCollector:
         self._colors: dict[tuple[int, int], Color | None] = {}
         self._names: set[str] = set()
         self._counts: dict[str, int] = {}
-        distinct: dict[tuple[Hashable, Hashable], Any] = {}
-        instances: list[tuple[tuple[Hashable, Hashable], Leaf]] = []
+        kept = []
         for leaf in leaves:
             if shapes.is_null(leaf.shape):
                 self.notes.append(Note("part-left-out", f'Part "{leaf.name}" is empty and was left out.'))
-                continue
-            key = shapes.underlying(leaf.shape), shapes.orientation(leaf.shape)
-            instances.append((key, leaf))
-            if key not in distinct:
-                distinct[key] = shapes.unplaced(leaf.shape)
-        division = shapes.divided(list(distinct.values()))
+            else:
+                kept.append(leaf)
+        division = shapes.divided([leaf.shape for leaf in kept])
         self.prototypes = division.prototypes
-        pieces = dict(zip(distinct, division.pieces, strict=True))
-        placed: list[tuple[Leaf, str, Piece, MatrixRows]] = []
-        for key, leaf in instances:
-            placed += self._placed(leaf, pieces[key])
-        transforms = matrices4([place for *_, place in placed])
+        named: list[tuple[Leaf, str, Piece]] = []
+        for leaf, pieces in zip(kept, division.pieces, strict=True):
+            self._name(leaf, pieces, named)
         self.parts = [
             Part(
                 name=name,
@@ -98,19 +91,18 @@ class PartCollector:
                 appearance=partial(_appearance, leaf, piece.shape, shapes),
                 above=leaf.above,
             )
-            for (leaf, name, piece, _), transform in zip(placed, transforms, strict=True)
+            for (leaf, name, piece), transform in zip(named, division.places, strict=True)
         ]
 
-    def _placed(self, leaf: Leaf, pieces: Sequence[Piece]) -> list[tuple[Leaf, str, Piece, MatrixRows]]:
-        """The pieces of a leaf, each with its leaf, its name, and where it stands."""
-        place = self._shapes.place(leaf.shape)
-        several = sum(piece.solid for piece in pieces) > 1
-        found = []
+    def _name(self, leaf: Leaf, pieces: Sequence[Piece], named: list[tuple[Leaf, str, Piece]]) -> None:
+        """Give the pieces of a leaf their names."""
+        if len(pieces) == 1:
+            named.append((leaf, self._unique(leaf.name, False), pieces[0]))
+            return
+        several = sum([piece.solid for piece in pieces]) > 1
         for piece in pieces:
-            suffix = "" if piece.solid or len(pieces) == 1 else ":loose"
-            name = self._unique(leaf.name + suffix, several and piece.solid)
-            found.append((leaf, name, piece, compose(place, piece.place)))
-        return found
+            suffix = "" if piece.solid else ":loose"
+            named.append((leaf, self._unique(leaf.name + suffix, several and piece.solid), piece))
 
     def _unique(self, name: str, numbered: bool) -> str:
         while True:

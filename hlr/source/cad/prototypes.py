@@ -141,15 +141,15 @@ class DividedPrototypes(LivePrototypes):
 
 Corner = tuple[float, float, float]
 
-KernelPiece = tuple[int, bool, list[float] | None]
-"""A prototype, whether it is a solid, and where it stands: twelve numbers row by row; None: it is not moved."""
+KernelPieces = tuple[list[list[tuple[int, bool]]], Floats]
+"""For each shape its pieces: prototype, and whether a solid; and (n, 4, 4) where all of them stand."""
 
 EMPTY_BOX: tuple[Corner, Corner] = ((math.inf,) * 3, (-math.inf,) * 3)
 """Lower and upper corner of the box of a shape without extent."""
 
 
-def divided_by_kernel(shapes: Sequence[Any]) -> tuple[_kernel.BrepModel, list[list[KernelPiece]]] | None:
-    """The pieces of each shape, as the kernel divides it, and the model of all distinct ones.
+def divided_by_kernel(shapes: Sequence[Any]) -> tuple[_kernel.BrepModel, KernelPieces] | None:
+    """The model of all distinct pieces of shapes, as the kernel divides them, and the pieces of each shape.
 
     None where only OpenCASCADE can: faces are made of triangles alone, or this OpenCASCADE writes no stream.
     """
@@ -157,7 +157,7 @@ def divided_by_kernel(shapes: Sequence[Any]) -> tuple[_kernel.BrepModel, list[li
     if stream is None:
         return None
     try:
-        return _kernel.BrepModel.divided(stream)
+        return _kernel.BrepModel.divided(stream, len(shapes) == 1)
     except ValueError:
         # The kernel reads no triangles of a stream: the dump has those that are all there is of a face.
         return None
@@ -168,9 +168,9 @@ LONG_STREAM = 1 << 20
 
 
 def shape_stream(shapes: Sequence[Any]) -> bytes | None:
-    """OpenCASCADE's stream of a compound of the shapes, without triangles: written in half the time of a dump.
+    """OpenCASCADE's stream of a compound of the shapes, or of a single one: written in half the time of a dump.
 
-    None where this OpenCASCADE writes none. It cannot be read back as the dump can.
+    It has no triangles, and cannot be read back as the dump can. None where this OpenCASCADE writes none.
     """
     import OCP.BinTools
 
@@ -181,7 +181,7 @@ def shape_stream(shapes: Sequence[Any]) -> bytes | None:
         return None
     stream = io.BytesIO()
     writers = [writer()]
-    writers[0].Write(make_compound(list(shapes)), stream)
+    writers[0].Write(shapes[0] if len(shapes) == 1 else make_compound(list(shapes)), stream)
     found = stream.getvalue()
     if len(found) > LONG_STREAM:
         # That takes a third as long as writing. The kernel reads the stream meanwhile.

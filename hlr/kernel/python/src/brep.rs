@@ -19,7 +19,6 @@ use hlr_brep::crossed::with_crossed_loops;
 use hlr_brep::divided::{Piece, divided};
 use hlr_brep::explore::Part;
 use hlr_brep::foreign_mesh::{Border, ForeignMesh, with_foreign_mesh};
-use hlr_brep::format::{IDENTITY, Matrix};
 use hlr_brep::geometry::planar::is_flat;
 use hlr_brep::geometry::surface::Surface;
 use hlr_brep::mesh::{Fault, Interrupted, OF_A_FACE, Progress, points_inside};
@@ -34,8 +33,9 @@ type Records<'py> = (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<i32>>, Bound<
 type Curves<'py> =
     (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<f64>>);
 
-/// A piece's number among the parts, whether it is a solid, and where it stands; None: it is not moved.
-type PieceFacts = (usize, bool, Option<Vec<f64>>);
+/// For each shape its pieces, each as its number among the parts, and whether it is a solid; and (n, 4, 4) where all the
+/// pieces stand, one shape after another.
+type Pieces<'py> = (Vec<Vec<(usize, bool)>>, Bound<'py, PyArray3<f64>>);
 
 /// Parts, faces and edges of a dump, each underlying face and edge once.
 #[pyclass(frozen)]
@@ -60,17 +60,23 @@ impl BrepModel {
         })
     }
 
-    /// The model of the distinct pieces of shapes in memory, from the stream of their compound. For each shape its pieces:
-    /// number in the model, whether a solid, and where it stands in the shape, twelve numbers row by row; None: it is not
-    /// moved.
+    /// The model of the distinct pieces of shapes in memory, from the stream of their compound, or of one shape alone.
     #[staticmethod]
-    fn divided(py: Python<'_>, stream: &[u8]) -> PyResult<(BrepModel, Vec<Vec<PieceFacts>>)> {
+    #[pyo3(signature = (stream, alone = false))]
+    fn divided<'py>(py: Python<'py>, stream: &[u8], alone: bool) -> PyResult<(BrepModel, Pieces<'py>)> {
         caught(py, || {
-            let read = run(py, stream.len() / 64, |_| divided(stream))?;
+            let read = run(py, stream.len() / 64, |_| divided(stream, alone))?;
             let (model, pieces) = read.map_err(|damage| PyValueError::new_err(damage.to_string()))?;
-            let place = |at: &Matrix| (*at != IDENTITY).then(|| at.as_flattened().to_vec());
-            let of = |shape: &Vec<Piece>| shape.iter().map(|p| (p.part, p.solid, place(&p.place))).collect();
-            Ok((BrepModel(Arc::new(model)), pieces.iter().map(of).collect()))
+            let all = || pieces.iter().flatten();
+            let mut places = Vec::with_capacity(16 * all().count());
+            for piece in all() {
+                // Minus zeros become zeros.
+                places.extend(piece.place.as_flattened().iter().map(|number| number + 0.0));
+                places.extend([0.0, 0.0, 0.0, 1.0]);
+            }
+            let places = places.into_pyarray(py).reshape([all().count(), 4, 4])?;
+            let of = |shape: &Vec<Piece>| shape.iter().map(|p| (p.part, p.solid)).collect();
+            Ok((BrepModel(Arc::new(model)), (pieces.iter().map(of).collect(), places)))
         })
     }
 

@@ -20,6 +20,7 @@ mod lines;
 mod measure;
 mod mesh;
 mod mesh_input;
+mod mesh_scene;
 mod meshfile;
 mod methods;
 mod outlined;
@@ -77,8 +78,8 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<brep::BrepMesh>()?;
     m.add_class::<cut::CutParts>()?;
     m.add_class::<parts::PartTables>()?;
-    m.add_class::<parts::MeshFacts>()?;
-    m.add_class::<parts::MeshScene>()?;
+    m.add_class::<mesh_scene::MeshFacts>()?;
+    m.add_class::<mesh_scene::MeshScene>()?;
     m.add_class::<preview::PictureLens>()?;
     m.add_class::<preview::PictureLight>()?;
     m.add_class::<preview::ShadedModel>()?;

@@ -19,6 +19,13 @@ use super::spread::Spread;
 /// Number of items (triangles, points) up to which a call takes about a millisecond at most.
 pub const FEW: usize = 1000;
 
+/// Triangles or points that count as one item of `run`: each takes a tenth of a microsecond. For fewer items starting
+/// other threads costs more than the work.
+pub const CHEAP: usize = 8;
+
+/// So many triangles are released as quickly as one face of a B-rep.
+pub const AT_ONCE: usize = 16;
+
 /// Pools by number of threads, and the process that they belong to: a fork has none of its parent's threads.
 static POOLS: Mutex<(u32, BTreeMap<usize, Arc<Pool>>)> = Mutex::new((0, BTreeMap::new()));
 

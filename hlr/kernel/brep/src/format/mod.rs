@@ -40,12 +40,12 @@ use record::Recorder;
 use text::Text;
 use tokens::{Read, Table, Tokens};
 
-/// Reads the shape of a dump, or of a stream of shapes that begins with a compound.
+/// Reads the shape of a dump, or of a stream of shapes.
 ///
 /// # Errors
 /// The bytes are no dump in a supported layout.
 pub fn read(data: &[u8]) -> Read<Dump> {
-    if data.first() == Some(&stream::FIRST) {
+    if data.first().is_some_and(|first| stream::SHAPES.contains(first)) {
         return stream::read(data);
     }
     dump(&mut Bytes::new(data)?)

@@ -1,6 +1,6 @@
 //! A stream of shapes (BinTools_ShapeWriter): every shape, location, curve and surface stands where it is first needed,
 //! and later ones refer back to it. OpenCASCADE writes it in half the time that a dump with tables takes. It has no
-//! header: here it begins with a compound.
+//! header: it begins with a shape.
 //!
 //! ```text
 //! compound  location  flags
@@ -35,10 +35,7 @@ const SURFACE: u8 = 13;
 const NO_SURFACE: u8 = 14;
 const END: u8 = 199;
 /// Shapes: four for each kind, one for each orientation.
-const SHAPES: std::ops::Range<u8> = 200..232;
-
-/// What a stream begins with: a compound, forward.
-pub const FIRST: u8 = SHAPES.start;
+pub const SHAPES: std::ops::Range<u8> = 200..232;
 
 /// Limit on the nesting of shapes.
 const DEEPEST: usize = 200;

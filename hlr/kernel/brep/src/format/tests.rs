@@ -75,7 +75,7 @@ fn a_reference_of_a_stream_leads_back_to_an_item_of_its_kind() {
 
 #[test]
 fn shapes_nested_without_end_are_refused() {
-    let open: Vec<u8> = [stream::FIRST, 7, 0].repeat(100_000);
+    let open: Vec<u8> = [stream::SHAPES.start, 7, 0].repeat(100_000);
     assert_eq!(read(&open).err().unwrap().what, "shapes nested too deep");
     assert_eq!(read(&[199]).err().unwrap().what, "a line without an end");
 }
