@@ -1,4 +1,4 @@
-"""Sections on the command line: `--section` and `--uncut` of `hlr draw` and `hlr plan`."""
+"""Sections on the command line: `--section`, `--whole` and `--uncut` of `hlr draw` and `hlr plan`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import click
 
 from hlr.errors import OptionError
 
-from .parameters import SectionPlane
+from .parameters import SectionPlane, ViewName
 from .view_options import names_of
 
 if TYPE_CHECKING:
@@ -27,6 +27,14 @@ SECTION = (
         "hatched. front: through the middle of the model; front@12.5: at this coordinate, in millimetres, on the axis "
         "that the view looks along; front@0,12.5,0: through this point. May be repeated, also for one view, which "
         "is then drawn once for each plane.",
+    ),
+    click.option(
+        "--whole",
+        type=ViewName(),
+        metavar="VIEW",
+        multiple=True,
+        help="--section: draw this view whole as well. It has its place on a page, and its sections lie beside it. "
+        "May be repeated. Default: a section takes the place of its view.",
     ),
     click.option(
         "--uncut",
@@ -51,16 +59,21 @@ def with_sections(
 
 
 def names_of_drawings(
-    views: tuple[View, ...], sections: tuple[tuple[str, SectionPlace], ...], eye: Vector3 | None
+    views: tuple[View, ...],
+    sections: tuple[tuple[str, SectionPlace], ...],
+    whole: tuple[View, ...],
+    eye: Vector3 | None,
 ) -> list[str]:
     """The names of drawings in file names: those of the views, and of the sections of one view.
 
-    views: with those that are cut. Raises OptionError where both an eye and a view are given, or a plane twice.
+    views: with those that are cut; whole: those that are drawn besides their sections
+
+    Raises OptionError where both an eye and a view are given, or a plane twice.
     """
     names = names_of(views, eye)
     if not sections:
         return names
-    from hlr.request.section import checked_section
+    from hlr.request.section import checked_section, checked_whole
     from hlr.request.shown_views import shown_views
 
-    return [each.name for each in shown_views(views, checked_section(sections))]
+    return [each.name for each in shown_views(views, checked_section(sections), checked_whole(whole))]

@@ -6,7 +6,7 @@ the request itself.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -133,7 +133,7 @@ def _for_hidden_lines(asked: Asked) -> str:
         if names_a_page(values["source"], values["page"]):
             return ""
         method = PROJECTION_METHODS.get(values["arrange"] or "")
-        if values["section"] and _all_cut(values["views"], values["section"], method is not None):
+        if values["section"] and method is None and _all_cut(values):
             return "has no effect: sections have no hidden lines, unless --hidden asks for them"
         views: tuple[View, ...] = values["views"] or (cast("tuple[View, ...]", method.usual) if method else ("iso",))
         in_perspective = values["perspective"] or any(values[name] is not None for name in ("eye", "target", "fov"))
@@ -143,11 +143,13 @@ def _for_hidden_lines(asked: Asked) -> str:
     return "has no effect: --no-hidden leaves the hidden lines out"
 
 
-def _all_cut(views: Sequence[View], sections: Sequence[tuple[str, Any]], on_one_page: bool) -> bool:
-    """Whether all views are sections. views: that were asked for"""
+def _all_cut(values: Mapping[str, Any]) -> bool:
+    """Whether all views are sections."""
     from hlr.request.directions import directed
 
-    return not on_one_page and {directed(view)[0] for view in views} <= {name for name, _ in sections}
+    return not values["whole"] and {directed(view)[0] for view in values["views"]} <= {
+        name for name, _ in values["section"]
+    }
 
 
 def _without(option: str, why: str) -> Callable[[Asked], str]:
@@ -168,10 +170,11 @@ def _for_several_scales(asked: Asked) -> str:
         return "has no effect: views on one page have one scale"
     views = values["views"]
     if sections := values.get("section"):
-        from hlr.request.section import checked_section, with_sections
+        from hlr.request.section import checked_section, checked_whole, with_sections
         from hlr.request.shown_views import shown_views
 
-        views = shown_views(with_sections(views, sections), checked_section(sections))
+        whole = checked_whole(values["whole"])
+        views = shown_views(with_sections(views, sections), checked_section(sections), whole)
     return "has no effect: there is one view" if len(views) < _FEW else ""
 
 
@@ -220,7 +223,7 @@ ROWS: tuple[Row, ...] = (
         refused=True,
     ),
     Row(
-        ("uncut",),
+        ("uncut", "whole"),
         _without("section", "is for --section: leave it out, or say what is cut"),
         refused=True,
     ),

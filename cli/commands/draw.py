@@ -155,7 +155,7 @@ def draw(
         return
     started = time.perf_counter() - time.process_time()  # the time of loading counts as well
     views = with_sections(views, sections, chosen["eye"])
-    names = names_of_drawings(views, sections, chosen["eye"])
+    names = names_of_drawings(views, sections, chosen["whole"], chosen["eye"])
     views = views or ("iso",)
     style = style_from(chosen)
     request = request_of(style=style, **chosen)

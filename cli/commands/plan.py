@@ -42,7 +42,7 @@ def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **
     sections = chosen["section"]
     chosen["section"] = sections or None
     views = with_sections(views, sections, chosen["eye"])
-    names_of_drawings(views, sections, chosen["eye"])
+    names_of_drawings(views, sections, chosen["whole"], chosen["eye"])
     if names_a_page(source, page := chosen["page"]):
         raise OptionError(f"{page} is no sheet, and pages of a document have no plan: hlr draw draws them")
     views = views or ("iso",)

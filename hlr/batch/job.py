@@ -50,10 +50,11 @@ class Job:
         if self.arrange:
             return (self.arrange,)
         # Pairs of a view and a place; in a table each view is cut once.
-        if isinstance(self.options.get("section"), list | tuple):
+        section, whole = self.options.get("section"), self.options.get("whole", ())
+        if isinstance(section, list | tuple) or whole:
             from hlr.batch.request import names_of_drawings
 
-            return names_of_drawings(self.options["section"], self.views)
+            return names_of_drawings(section, self.views, whole)
         return self.views
 
     @property

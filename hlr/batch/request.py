@@ -58,22 +58,22 @@ def check(values: Mapping[str, Any], views: tuple[Any, ...], root: str, arrange:
     if options.section is not None:
         from hlr.request.section import check_sections
 
-        check_sections(options.section, views, by_name=bool(arrange))
+        check_sections(options.section, views, options.whole, by_name=bool(arrange))
     if arrange:
         method = PROJECTION_METHODS[arrange]
         check_arranged(options)
-        shown = shown_views(views, options.section)
+        shown = shown_views(views, options.section, options.whole)
         check_views([each.name for each in shown], cells_of(shown, method)[0], method)
 
 
-def names_of_drawings(section: Any, views: tuple[Any, ...]) -> tuple[Any, ...]:
+def names_of_drawings(section: Any, views: tuple[Any, ...], whole: Any = ()) -> tuple[Any, ...]:
     """What the drawings of views are called of which some are cut; the views, where `check` refuses them."""
     from hlr.request.check import checked_views
-    from hlr.request.section import checked_section
+    from hlr.request.section import checked_section, checked_whole
     from hlr.request.shown_views import shown_views
 
     try:
-        shown = shown_views(checked_views(views, Options()), checked_section(section))
+        shown = shown_views(checked_views(views, Options()), checked_section(section), checked_whole(whole))
     except HlrError:
         return views
     return tuple(each.name for each in shown)
@@ -82,11 +82,13 @@ def names_of_drawings(section: Any, views: tuple[Any, ...]) -> tuple[Any, ...]:
 def wrong_one(values: Mapping[str, Any], root: str, arrange: str = "") -> str | None:
     """The first of these options that is refused, by itself or else beside those before it; None: the views are."""
     for name, value in values.items():
+        if name == "whole" and "section" in values:
+            continue  # its views are right or wrong beside their sections alone
         # Parts are left whole in sections alone.
         beside = {"section": {"iso": True}} if name == "uncut" and values.get("section") else {}
         if _is_refused({name: value, **beside}, root, arrange):
             return name
-    names = sorted(values, key=lambda name: name != "section")  # `uncut` is nothing without it
+    names = sorted(values, key=lambda name: name != "section")  # `uncut` and `whole` are nothing without it
     for number, name in enumerate(names):
         if _is_refused({each: values[each] for each in names[: number + 1]}, root, arrange):
             return name
@@ -95,12 +97,13 @@ def wrong_one(values: Mapping[str, Any], root: str, arrange: str = "") -> str | 
 
 def _is_refused(values: Mapping[str, Any], root: str, arrange: str) -> bool:
     """Whether options are refused beside a view that any options can have."""
-    from hlr.request.section import by_view, checked_section, with_sections
+    from hlr.request.section import by_view, checked_section, checked_whole, with_sections
 
     try:
         # Some sections are said by their views.
         places = by_view(checked_section(values.get("section")))
-        check(values, with_sections((), places) if places else ("iso",), root, arrange)
+        named = places or tuple((name, True) for name in checked_whole(values.get("whole", ())))
+        check(values, with_sections((), named) or ("iso",), root, arrange)
     except HlrError:
         return True
     return False

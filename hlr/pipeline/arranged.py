@@ -195,8 +195,8 @@ def draw_on_one_page(
     if options.section is not None:
         from hlr.request.section import check_sections
 
-        check_sections(options.section, views, by_name=True)
-    shown = shown_views(views, options.section)
+        check_sections(options.section, views, options.whole, by_name=True)
+    shown = shown_views(views, options.section, options.whole)
     asked = _Views(shown, *cells_of(shown, method), method)
     check_views([each.name for each in shown], asked.cells, method)
     source = open_selected(source, options)

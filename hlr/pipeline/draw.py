@@ -38,8 +38,9 @@ def draw_views(
             from hlr.request.section import check_sections
             from hlr.request.shown_views import shown_views
 
-            check_sections(options.section, views)
-            drawings = draw_sections(source, shown_views(views, options.section), options, progress, noted)
+            check_sections(options.section, views, options.whole)
+            shown = shown_views(views, options.section, options.whole)
+            drawings = draw_sections(source, shown, options, progress, noted)
         else:
             drawings = _drawn_whole(Session(source, views, options, progress), views, options, noted)
     if options.strict:

@@ -101,8 +101,9 @@ def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, *
     if asked.section is not None:
         from hlr.request.section import by_view, checked_section
 
-        if len(by_view(checked_section(asked.section)) or ()) > 1:
-            raise OptionError("one drawing is cut once: draw several sections with draw_views, or draw_arranged")
+        if asked.whole or len(by_view(checked_section(asked.section)) or ()) > 1:
+            what = "a view and its sections" if asked.whole else "several sections"
+            raise OptionError(f"one drawing is cut once: draw {what} with draw_views, or draw_arranged")
     return draw_views(source, [view], asked, progress)[0]
 
 

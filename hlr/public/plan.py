@@ -77,8 +77,8 @@ def _groups(
     from hlr.request.shown_views import shown_views
     from hlr.source.selection import open_selected
 
-    check_sections(options.section, views)
-    shown = shown_views(views, options.section)
+    check_sections(options.section, views, options.whole)
+    shown = shown_views(views, options.section, options.whole)
     for group in groups_of(open_selected(source, options), shown, options, progress):
         yield {number: shown[number].name for number in group.numbers}, group.session, group.drafts()
 

@@ -72,6 +72,12 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
         for name in ("perspective", "report"):
             if options.section is not None and getattr(options, name):
                 raise OptionError(f"a section has no {name}: leave out {name}, or section")
+    if options.whole:
+        from hlr.request.section import checked_whole
+
+        options = replace(options, whole=checked_whole(options.whole))
+        if options.section is None:
+            raise OptionError("whole is for the views of sections: give section as well, or leave it out")
     if options.window is not None:
         _window(options.window)
     for name in ("only", "hide", "uncut"):

@@ -77,6 +77,8 @@ class Options:
                  all in millimetres in the world, as an eye; or these by the names of the views that are cut:
                  {"front": True, "left": 12.5}; or pairs of a view and its place, where several planes cut one view:
                  [("left", 12.5), ("left", 40)], of which each is a drawing. Cut faces are hatched
+    whole        views that are drawn whole besides their sections, as ("left",): the view and its sections are each a
+                 drawing, called left, left-A and so on. Else a section takes the place of its view
     uncut        patterns of parts that sections leave whole, as bolts, shafts and ribs are by custom
     up           the direction that points up on paper; None: the named view's own, else z (y for views along z)
     perspective  None: orthographic
@@ -117,6 +119,7 @@ class Options:
     crease: float = 30.0
     circles: bool = False
     section: SectionLike | None = field(default=None, hash=False)
+    whole: ViewName | Sequence[View] = field(default=(), hash=False)
     uncut: tuple[str, ...] = ()
     up: Vector | None = None
     perspective: Perspective | None = None
@@ -163,6 +166,7 @@ class Wishes(Chosen, total=False):
     crease: float
     circles: bool
     section: SectionLike | None
+    whole: ViewName | Sequence[View]
     uncut: tuple[str, ...]
     up: Vector | None
     perspective: Perspective | None

@@ -5,7 +5,8 @@ axis is cut, x for left and right, y for front and back, z for top and bottom; o
 step: (12.5, (30, 40)) lies at 12.5, and from 30 on at 40. It steps along the axis that runs across the view: x for
 front, back, top and bottom, y for left and right. Lengths are millimetres in the world (z up), as those of an eye. One
 place is for all views; a mapping says a place for each of the views that it names, and the others are not cut. Pairs of
-a view and a place may name a view several times: it is drawn once for each (`hlr.request.shown_views`).
+a view and a place may name a view several times: it is drawn once for each (`hlr.request.shown_views`). A view may be
+drawn whole besides its sections.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from typing import Any, TypeGuard, cast
 from hlr.common.numbers import is_finite
 from hlr.errors import OptionError, ViewError
 from hlr.request.directions import directed, pictorial
-from hlr.request.options import SectionPlace, Steps, Vector, View
+from hlr.request.options import SectionPlace, Steps, Vector, View, ViewName
 from hlr.tables.entry import listed
 
 FARTHEST = 1e12
@@ -52,6 +53,17 @@ def checked_section(section: Any) -> SectionPlace | dict[str, SectionPlace] | By
     return (dict(found) or None) if len(set(names)) == len(names) else tuple(found)
 
 
+def checked_whole(whole: Any) -> tuple[ViewName, ...]:
+    """The names of views that are drawn whole besides their sections; a single name is one.
+
+    Raises OptionError for what is no list of views.
+    """
+    given = (whole,) if isinstance(whole, str) else whole
+    if not isinstance(given, Sequence):
+        raise OptionError(f'whole needs a list of views, such as ["left"], not {whole!r}')
+    return cast("tuple[ViewName, ...]", tuple(dict.fromkeys(_name(view, "whole") for view in given)))
+
+
 def by_view(section: Any) -> ByView | None:
     """Where views are cut, by their names; None: nothing is cut, or one place is for all views. section: checked."""
     if isinstance(section, Mapping):
@@ -59,8 +71,8 @@ def by_view(section: Any) -> ByView | None:
     return section if isinstance(section, tuple) and isinstance(section[0], tuple) else None
 
 
-def check_sections(section: Any, views: Sequence[View], *, by_name: bool = False) -> None:
-    """Raise OptionError where a section does not fit the views. section, views: checked.
+def check_sections(section: Any, views: Sequence[View], whole: Any = (), *, by_name: bool = False) -> None:
+    """Raise OptionError where a section does not fit the views. section, views, whole: checked.
 
     by_name: views on one page, of which some are cut
     """
@@ -72,6 +84,11 @@ def check_sections(section: Any, views: Sequence[View], *, by_name: bool = False
             raise OptionError(f"section {unknown[0]} is none of the views, {listed(names, 'and')}: add it to them")
     elif by_name:
         raise OptionError('a page of several views has sections by name: give {"front": True}, not one for all')
+    cut = names if places is None else [name for name, _ in places]
+    if spare := [name for name in whole if name not in cut]:
+        raise OptionError(
+            f"whole {spare[0]} is none of the sections, {listed(dict.fromkeys(cut), 'and')}: leave it out"
+        )
     directions = {name: directed(view)[1] for view, name in zip(views, names, strict=True)}
     for name, place in places if places is not None else [(name, section) for name in names]:
         if isinstance(place, bool) or not pictorial(directions[name]):
@@ -123,13 +140,14 @@ def _told(place: SectionPlace) -> str:
     return "@" + ",".join(f"{c:g}" for c in (place if isinstance(place, tuple) else (place,)))
 
 
-def _name(view: Any) -> str:
+def _name(view: Any, option: str = "section") -> str:
+    """The name of a view. option: what names it, in messages."""
     try:
         named = isinstance(view, str) and "," not in view
         return directed(cast(View, view.strip().lower() if named else _vector(view)))[0]
     except (ViewError, TypeError, ValueError) as error:
         why = str(error).rstrip(".") if isinstance(error, ViewError) else f"{view!r} is no view"
-        raise OptionError(f"section: {why}") from None
+        raise OptionError(f"{option}: {why}") from None
 
 
 def _vector(view: Any) -> tuple[float, ...]:

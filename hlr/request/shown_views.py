@@ -1,7 +1,8 @@
 """What is drawn of views: one drawing of each, or one for each of its sections, which have names and letters.
 
 The first section of a view is called as the view is; each further one has its letter behind that: front, front-B. So a
-section that is added gives no other drawing a new name.
+section that is added gives no other drawing a new name. Where the view is drawn whole as well, that name is its own,
+and each of its sections has its letter: front, front-A.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ class ShownView:
     name    of the drawing, unlike that of any other section of the view
     place   where it is cut; None: it is not
     number  of the section, in the order in which they are asked for; -1: it is none
-    which   of the sections of the view it is; others: how many there are besides
+    which   of what is drawn of the view it is; others: how many there are besides
     """
 
     view: View
@@ -37,7 +38,7 @@ class ShownView:
 
     @property
     def is_further(self) -> bool:
-        """Whether another section of the view comes before it."""
+        """Whether the view itself, or another section of it, comes before it."""
         return self.which > 0
 
     @property
@@ -52,21 +53,20 @@ def letter_of(number: int) -> str:
     return LETTERS[which] + (str(turn + 1) if turn else "")
 
 
-def shown_views(views: Sequence[View], section: Any) -> list[ShownView]:
-    """What is drawn of these views, in their order. views, section: checked."""
+def shown_views(views: Sequence[View], section: Any, whole: Any = ()) -> list[ShownView]:
+    """What is drawn of these views, in their order. views, section, whole: checked."""
     places = by_view(section)
-    if places is None:
-        numbers = range(len(views)) if section is not None else [-1] * len(views)
-        return [
-            ShownView(view, directed(view)[0], section, number) for view, number in zip(views, numbers, strict=True)
-        ]
     shown = []
-    for view in views:
+    for k, view in enumerate(views):
         name = directed(view)[0]
-        own = [(number, place) for number, (named, place) in enumerate(places) if named == name]
+        own: list[tuple[int, SectionPlace | None]] = []
+        if places is not None:
+            own = [(number, place) for number, (named, place) in enumerate(places) if named == name]
+        elif section is not None:
+            own = [(k, section)]
+        if name in whole or not own:
+            own.insert(0, (-1, None))
         for which, (number, place) in enumerate(own):
             called = f"{name}-{letter_of(number)}" if which else name
             shown.append(ShownView(view, called, place, number, which, len(own) - 1))
-        if not own:
-            shown.append(ShownView(view, name))
     return shown

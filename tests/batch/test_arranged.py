@@ -73,6 +73,21 @@ def test_several_sections_of_a_view_are_pairs(tmp_path):
     assert len(outcome.contents) == len(alone.files)
 
 
+@pytest.mark.parametrize("arrange", ["", "first-angle"])
+@pytest.mark.parametrize("section", [[["left", 5]], {"left": 5}])
+def test_a_view_is_drawn_whole_besides_its_section(tmp_path, section, arrange):
+    asked = {"section": section, "views": ["front", "left"], "arrange": arrange, "formats": ["json"]}
+    _, (job,) = jobs(tmp_path, whole=["left"], **asked)
+    names = [row[0].removeprefix("./").removeprefix("part-").removesuffix(".json") for row in job.files]
+    assert names == (["first-angle"] if arrange else ["front", "left", "left-A"])
+    outcome = carry_out(job)
+    assert outcome.failure is None
+    assert [drawing["view"] for drawing in outcome.drawings] == names
+    assert b'"left-A"' in outcome.contents[-1][0]
+    _, (other,) = jobs(tmp_path, **asked)
+    assert key_of(job, Digests()) != key_of(other, Digests())
+
+
 @pytest.mark.parametrize(
     ("section", "told"),
     [
@@ -102,6 +117,9 @@ def test_the_order_of_sections_is_part_of_what_is_asked_for(tmp_path):
         ({"section": {"back": True}}, "section back is none of the views"),
         ({"section": True, "arrange": "first-angle"}, "a page of several views has sections by name"),
         ({"uncut": ["bolt"]}, "uncut is for parts of a section"),
+        ({"whole": ["front"]}, "whole is for the views of sections"),
+        ({"section": {"front": True}, "whole": ["top"]}, "whole top is none of the sections, front"),
+        ({"section": {"front": True}, "whole": ["front"], "crease": 999}, "crease 999 is not a crease angle"),
         ({"section": {"front": True}, "uncut": ["bolt"], "crease": 999}, "crease 999 is not a crease angle"),
     ],
 )
@@ -117,6 +135,12 @@ def test_the_key_that_is_wrong_is_found_beside_sections():
     assert wrong_one({"hidden": True, "section": {"front": "x"}}, "") == "section"
     assert wrong_one({"uncut": ["bolt"], "section": {"front": True}, "page": "A4", "fit": "A4"}, "") == "fit"
     assert wrong_one({"uncut": ["bolt"], "section": {"front": True}, "page": "A4"}, "") is None
+    for section in ({"front": True}, [["front", 3]]):
+        assert wrong_one({"whole": ["front"], "section": section, "crease": 999}, "", "first-angle") == "crease"
+        assert wrong_one({"whole": ["top"], "section": section}, "", "first-angle") == "whole"
+    assert wrong_one({"whole": ["top"], "section": True}, "") is None
+    assert wrong_one({"whole": ["top"], "section": {"front": "x"}}, "") == "section"
+    assert wrong_one({"whole": ["top"]}, "") == wrong_one({"whole": 7, "section": True}, "") == "whole"
 
 
 def test_options_that_contradict_one_another_are_refused_with_the_line_of_one(tmp_path):

@@ -78,6 +78,10 @@ def test_parts_stay_whole(draw, tmp_path):
         (["--section", "front", "--report"], "a section has no report: leave out report, or section"),
         (["--section", "front", "--uncut", "blot"], 'uncut "blot" matches no part: perhaps "bolt"'),
         (["--uncut", "bolt"], "--uncut is for --section: leave it out, or say what is cut"),
+        (["--whole", "left"], "--whole is for --section: leave it out, or say what is cut"),
+        (["--section", "front", "--whole", "left"], "whole left is none of the sections, front: leave it out"),
+        (["--section", "front", "--whole", "lft"], "'lft' is none of front, back, left"),
+        (["--section", "front", "--whole", "front"], "2 views cannot share the one file a.svg"),
     ],
 )
 def test_what_cannot_be_cut_is_refused_in_one_sentence(draw, tmp_path, arguments, message):
@@ -133,12 +137,32 @@ def test_several_sections_of_one_view_are_files_with_names_of_their_own(draw, tm
     assert [each["view"] for each in json.loads(done.out)["drawings"]] == ["iso", "left", "left-C", "top"]
 
 
-@pytest.mark.parametrize(("planes", "noted"), [(["front"], True), (["front@20", "front@60"], False)])
-def test_one_scale_for_all_is_told_off_where_there_is_one_drawing(hlr_real, planes, noted):
-    sections = [word for plane in planes for word in ("--section", plane)]
-    done = hlr_real("plan", STEP, *sections, "--same-scale")
-    assert ("--same-scale has no effect: there is one view" in done.err) is noted
-    assert noted or re.findall(r"^front.*$", done.out, re.M) == ["front", "front-B"]
+@pytest.mark.parametrize(
+    ("asked", "drawn"),
+    [
+        (["--section", "front"], []),
+        (["--section", "front@20", "--section", "front@60"], ["front", "front-B"]),
+        (["--section", "front@20", "--whole", "front"], ["front", "front-A"]),
+    ],
+)
+def test_one_scale_for_all_is_told_off_where_there_is_one_drawing(hlr_real, asked, drawn):
+    done = hlr_real("plan", STEP, *asked, "--same-scale")
+    assert ("--same-scale has no effect: there is one view" in done.err) is not drawn
+    assert not drawn or re.findall(r"^front.*$", done.out, re.M) == drawn
+
+
+def test_a_view_may_be_drawn_whole_besides_its_sections(draw, tmp_path):
+    asked = ["--section", "left@60", "--section", "left@180", "--whole", "left"]
+    done = draw(STEP, "--arrange", "first-angle", *asked, "-o", "page.svg")
+    assert (done.code, done.err) == (0, "")
+    svg = (tmp_path / "page.svg").read_text("utf-8")
+    assert re.findall(r'<view name="([\w-]+)"', svg) == [
+        "front", "top", "left", "left-A", "left-B", "iso"
+    ]  # fmt: skip
+    done = draw(STEP, *asked, "-o", "{n}-{view}.svg")
+    assert (done.code, done.err) == (0, "")
+    assert sorted(path.stem for path in tmp_path.glob("*-*.svg")) == ["1-left", "2-left-A", "3-left-B"]
+    assert [" section=" in path.read_text("utf-8") for path in sorted(tmp_path.glob("*-*.svg"))] == [False, True, True]
 
 
 def test_pages_of_documents_have_their_own_sections(draw):
@@ -149,7 +173,14 @@ def test_pages_of_documents_have_their_own_sections(draw):
 
 
 @pytest.mark.parametrize(
-    ("views", "noted"), [([], True), (["--view", "front"], True), (["--view", "top"], False), (["--hidden"], False)]
+    ("views", "noted"),
+    [
+        ([], True),
+        (["--view", "front"], True),
+        (["--view", "top"], False),
+        (["--hidden"], False),
+        (["--whole", "front"], False),
+    ],
 )
 def test_the_colour_of_hidden_lines_has_no_effect_where_all_views_are_cut(hlr_real, views, noted):
     done = hlr_real("draw", BOX, "--section", "front", *views, "--hidden-color", "gray", "-o", "{view}.svg")

@@ -121,6 +121,17 @@ def test_a_view_is_drawn_once_for_each_of_its_planes_and_each_has_a_name_and_a_l
     assert [each.is_further for each in shown] == [False, False, True, True, False, False]
 
 
+def test_a_view_that_is_drawn_whole_comes_before_its_sections_which_all_have_letters():
+    section = form([("left", 3), ("front", 1), ("left", 5)])
+    shown = shown_views(["front", "left"], section, ("left",))
+    assert [(each.name, each.place, each.letter, each.which, each.others) for each in shown] == [
+        ("front", 1.0, "B", 0, 0),
+        ("left", None, "", 0, 2),
+        ("left-A", 3.0, "A", 1, 2),
+        ("left-C", 5.0, "C", 2, 2),
+    ]
+
+
 def test_views_that_are_cut_twice_are_added_once():
     places = by_view(form([("left", 3), ((1, -1, 0), (0, 0, 0)), ("left", 5)]))
     assert with_sections(["front"], places) == ("front", "left", (1.0, -1.0, 0.0))

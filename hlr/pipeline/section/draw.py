@@ -116,7 +116,7 @@ def groups_of(
     plain = [k for k, cut in enumerate(cuts) if cut is None]
     groups: list[ViewGroup] = []
     if plain:
-        alone = replace(options, section=None)
+        alone = replace(options, section=None, whole=())
         groups.append(ViewGroup(plain, Session(opened, [views[k].view for k in plain], alone, progress), None))
     for k, cut in enumerate(cuts):
         if cut is not None:
@@ -151,7 +151,7 @@ def _of_section(options: Options) -> Options:
 
 def _of_one(options: Options, shown: ShownView) -> Options:
     """The options of a view by itself."""
-    return replace(options, section=shown.place, uncut=() if shown.place is None else options.uncut)
+    return replace(options, section=shown.place, whole=(), uncut=() if shown.place is None else options.uncut)
 
 
 def _finished(drawing: Drawing, session: Session, cut: _Cut, whole: Source, name: str) -> Drawing:
