@@ -29,6 +29,10 @@ fast *arguments:
 rust *arguments:
     cd hlr/kernel && cargo test --quiet --profile quick --workspace --lib --tests "$@"
 
+# Check that the fuzz targets compile, and write their lock file anew where crates have changed
+fuzz:
+    cd hlr/kernel/fuzz && cargo check --quiet
+
 # Check style and types as the gate does
 lint:
     ruff check .

@@ -12,6 +12,9 @@ from hlr.errors import OptionError
 Record = TypeVar("Record")
 Function = TypeVar("Function", bound=Callable[..., Any])
 
+_LISTED = 25
+"""Names that a sentence may list."""
+
 
 def record_of(kind: type[Record], keywords: Mapping[str, Any], function: str) -> Record:
     """The record with these fields. Raises OptionError for an unknown keyword, and names the nearest known one."""
@@ -20,7 +23,8 @@ def record_of(kind: type[Record], keywords: Mapping[str, Any], function: str) ->
         if name not in fields:
             known = list(fields)
             near = get_close_matches(name, known, 1)
-            advice = f"did you mean {near[0]}?" if near else f"use {', '.join(known)}"
+            others = f"use {', '.join(known)}" if len(known) <= _LISTED else f"help({function}) lists its {len(known)}"
+            advice = f"did you mean {near[0]}?" if near else others
             raise OptionError(f"{function}() has no option {name!r}: {advice}")
     return kind(**keywords)
 

@@ -87,6 +87,10 @@ def test_a_wrong_option_is_refused_with_the_nearest():
         hlr.draw("a.step", hiden=False)
     with pytest.raises(hlr.OptionError, match=r"^preview\(\) has no option 'xyz': use size, "):
         hlr.preview("a.step", xyz=1)
+    with pytest.raises(
+        hlr.OptionError, match=rf"^draw\(\) has no option 'xyz': help\(draw\) lists its {len(fields(Options))}\.$"
+    ):
+        hlr.draw("a.step", xyz=1)
 
 
 PROGRAM = """
