@@ -147,7 +147,7 @@ def test_several_sections_of_one_view_are_files_with_names_of_their_own(draw, tm
 )
 def test_one_scale_for_all_is_told_off_where_there_is_one_drawing(hlr_real, asked, drawn):
     done = hlr_real("plan", STEP, *asked, "--same-scale")
-    assert ("--same-scale has no effect: there is one view" in done.err) is not drawn
+    assert ("--same-scale has no effect: there is one view" in done.err) is (not drawn)
     assert not drawn or re.findall(r"^front.*$", done.out, re.M) == drawn
 
 

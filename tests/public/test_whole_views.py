@@ -122,6 +122,9 @@ def test_drawings_by_themselves(model):
     plain, alone = hlr.draw(model, "left", scale=1), hlr.draw(model, "left", section=15, scale=1)
     assert drawn[2].to_svg() == plain.to_svg()
     assert [line.points.tolist() for line in drawn[4].lines] == [line.points.tolist() for line in alone.lines]
+    for drawing in drawn:
+        (again,) = hlr.draw_views(model, [drawing.request.view], drawing.request.options)
+        assert (len(again.lines), again.section) == (len(drawing.lines), drawing.section)
     assert [each.view for each in hlr.plan_views(model, ["left"], asked)] == ["left", "left-A", "left-B"]
 
 
