@@ -71,7 +71,8 @@ pub fn run(data: &[u8]) {
     for line in &mut lines {
         let before = line.clone();
         let without_brep = case.traits[line.chain as usize].without_brep;
-        let kept: Vec<bool> = line.flat.iter().map(|p| without_brep && ends.meet(line, p)).collect();
+        let met = |i: &usize| without_brep && ends.meet(line, &line.flat[*i]);
+        let kept: Vec<usize> = (0..line.flat.len()).filter(met).collect();
         simplify(line, &kept, case.tolerances.flat, case.tolerances.space);
         check_thinned(&before, line, case.tolerances.flat);
     }

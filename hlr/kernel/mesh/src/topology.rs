@@ -120,7 +120,7 @@ pub fn repeated(triangles: &[[i32; 3]], topology: &Topology) -> Vec<i32> {
         let third = |t: i32| triangles[t as usize].iter().map(|&v| i64::from(v)).sum::<i64>();
         match around {
             [] | [_] => None,
-            [s, t] => (s != t && third(*s) == third(*t)).then_some(vec![*t]),
+            [s, t] => (s != t && third(*s) == third(*t)).then(|| vec![*t]),
             _ => {
                 // A triangle with a repeated corner is listed twice itself.
                 let mut all: Vec<(i64, i32)> = around.iter().map(|&t| (third(t), t)).collect();

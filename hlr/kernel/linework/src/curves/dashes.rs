@@ -8,6 +8,7 @@
 use hlr_exact::elementary::log10;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 
 use super::digits::put;
 use super::length::{Measured, between, ends, rows};
@@ -64,7 +65,7 @@ impl Fitted {
 
 /// Where visible strokes end, and the directions in which they would go on.
 #[derive(Default)]
-pub struct Ends(FxHashMap<[i64; 2], Vec<Vec2>>);
+pub struct Ends(FxHashMap<[i64; 2], SmallVec<[Vec2; 1]>>);
 
 impl Ends {
     pub fn add(&mut self, visible: &Strokes) {

@@ -1,5 +1,7 @@
 //! Arc length and end directions of written strokes: lines, Bezier curves, arcs.
 
+use smallvec::SmallVec;
+
 use super::arcs::{Drawn, EXTRA};
 use super::strokes::{ARC, CONTROL, CUBIC, QUADRATIC, START, Strokes, WHOLE};
 use crate::fit::bezier;
@@ -50,11 +52,11 @@ fn unit(v: &Vec2) -> Vec2 {
 }
 
 /// The curves of stroke `s` in order, with the closing line of a closed polyline.
-fn pieces(strokes: &Strokes, s: usize) -> Vec<Piece> {
+fn pieces(strokes: &Strokes, s: usize) -> SmallVec<[Piece; 4]> {
     let unit = 10f64.powi(-(strokes.places as i32));
     let at = |i: usize| strokes.points[i].map(|c| c as f64 * unit);
     let (first, last) = (strokes.starts[s] as usize, strokes.starts[s + 1] as usize);
-    let mut out = Vec::with_capacity(last - first);
+    let mut out = SmallVec::with_capacity(last - first);
     for i in first..last {
         let shape = || &strokes.arcs[strokes.arc[i] as usize];
         match strokes.op[i] {

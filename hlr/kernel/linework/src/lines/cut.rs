@@ -91,7 +91,11 @@ pub fn cut(
                 return chain;
             }
             // A crease of a mesh keeps its vertices where other lines end.
-            let kept: Vec<bool> = line.flat.iter().map(|p| of.without_brep && ends.meet(line, p)).collect();
+            let kept: Vec<usize> = if of.without_brep {
+                (0..line.flat.len()).filter(|&i| ends.meet(line, &line.flat[i])).collect()
+            } else {
+                Vec::new()
+            };
             simplify(line, &kept, t.flat, t.space);
             None
         })

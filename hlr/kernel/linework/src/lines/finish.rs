@@ -99,8 +99,10 @@ fn bent(
     (line.flat[0], line.flat[last]) = (found.flat[0], found.flat[1]);
     (line.space[0], line.space[last]) = (found.space[0], found.space[1]);
     let kept = |i: usize| i == 0 || i == last || found.inner.contains(&i);
-    line.flat = line.flat.iter().enumerate().filter(|(i, _)| kept(*i)).map(|(_, p)| *p).collect();
-    line.space = line.space.iter().enumerate().filter(|(i, _)| kept(*i)).map(|(_, p)| *p).collect();
+    let mut numbers = 0..;
+    line.flat.retain(|_| numbers.next().is_none_or(kept));
+    let mut numbers = 0..;
+    line.space.retain(|_| numbers.next().is_none_or(kept));
     let mut bounds = found.bounds;
     if found.form == Some(Form::Straight) {
         flatten(&mut line);

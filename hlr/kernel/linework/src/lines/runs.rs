@@ -6,6 +6,8 @@
 //!   decided  V V V H H H H V V V V V V     D is a stub left by the tolerance, so hidden; W is a contact, so visible
 //! ```
 
+use smallvec::{SmallVec, smallvec};
+
 use super::camera::Camera;
 use super::{Polyline, distance};
 use hlr_accuracy::RUN_NOISE;
@@ -79,6 +81,9 @@ struct Run {
     length: f64,
 }
 
+/// Runs one after another; most lines have one or two.
+type Runs = SmallVec<[Run; 2]>;
+
 struct Chain<'a> {
     geometry: &'a Geometry<'a>,
     edges: &'a [i32],
@@ -109,9 +114,9 @@ impl Chain<'_> {
     }
 
     /// Contiguous stretches, each a list of runs in alternating states.
-    fn stretches(&self) -> Vec<Vec<Run>> {
+    fn stretches(&self) -> SmallVec<[Runs; 1]> {
         let g = self.geometry;
-        let mut out: Vec<Vec<Run>> = Vec::new();
+        let mut out: SmallVec<[Runs; 1]> = SmallVec::new();
         let mut broken = true;
         for k in 0..self.edges.len() {
             let pieces = g.pieces_of(self.edges[k]);
@@ -130,7 +135,7 @@ impl Chain<'_> {
                 let run = Run { state: piece.state, from: (k, s), to: (k, t), length: whole * (t - s) };
                 match out.last_mut() {
                     Some(last) if !broken => join(last, run),
-                    _ => out.push(vec![run]),
+                    _ => out.push(smallvec![run]),
                 }
                 broken = false;
             }
@@ -139,14 +144,21 @@ impl Chain<'_> {
     }
 
     /// Whether there is one stretch that ends where it begins, with nothing clipped away in between.
-    fn closed(&self, stretches: &[Vec<Run>]) -> bool {
+    fn closed(&self, stretches: &[Runs]) -> bool {
         let [runs] = stretches else { return false };
         let last = self.edges.len() - 1;
         last > 0 && self.ends(0).0 == self.ends(last).1 && self.at(runs[0].from).0 == self.at(runs[runs.len() - 1].to).0
     }
 
     fn polyline(&self, runs: &[Run], id: u32) -> Polyline {
-        let mut line = Polyline { chain: id, visible: runs[0].state == State::Visible, ..Polyline::default() };
+        let most = runs.iter().map(|run| run.to.0 - run.from.0 + 2).sum();
+        let mut line = Polyline {
+            chain: id,
+            visible: runs[0].state == State::Visible,
+            flat: Vec::with_capacity(most),
+            space: Vec::with_capacity(most),
+            ..Polyline::default()
+        };
         let mut put = |stop: (usize, f64)| {
             let (flat, space) = self.at(stop);
             if line.flat.last() != Some(&flat) {
@@ -165,7 +177,7 @@ impl Chain<'_> {
     }
 }
 
-fn join(runs: &mut Vec<Run>, run: Run) {
+fn join(runs: &mut Runs, run: Run) {
     if let Some(last) = runs.last_mut()
         && last.state == run.state
     {
@@ -185,12 +197,15 @@ fn dives(runs: &[Run], i: usize, stub: f64, closed: bool) -> bool {
 }
 
 /// Joins neighbours that now have the same state.
-fn rejoin(runs: Vec<Run>) -> Vec<Run> {
-    let mut out = Vec::with_capacity(runs.len());
-    for run in runs {
-        join(&mut out, run);
-    }
-    out
+fn rejoin(runs: &mut Runs) {
+    runs.dedup_by(|run, last| {
+        let same = run.state == last.state;
+        if same {
+            last.to = run.to;
+            last.length += run.length;
+        }
+        same
+    });
 }
 
 /// The runs before and after run i; a closed chain wraps around.
@@ -223,7 +238,12 @@ fn goes_through(
     }
 }
 
-fn settle(mut runs: Vec<Run>, limits: &Limits, closed: bool, pierces: impl Fn((usize, f64)) -> bool) -> Vec<Run> {
+fn settle(mut runs: Runs, limits: &Limits, closed: bool, pierces: impl Fn((usize, f64)) -> bool) -> Runs {
+    if let [run] = &runs[..]
+        && matches!(run.state, State::Visible | State::Hidden)
+    {
+        return runs;
+    }
     let mut through = vec![false; runs.len()];
     for i in (0..runs.len()).filter(|&i| runs[i].state == State::Diving) {
         goes_through(&runs, i, limits, closed, &pierces, &mut through);
@@ -241,14 +261,14 @@ fn settle(mut runs: Vec<Run>, limits: &Limits, closed: bool, pierces: impl Fn((u
     for (run, state) in runs.iter_mut().zip(states) {
         run.state = state;
     }
-    runs = rejoin(runs);
+    rejoin(&mut runs);
     for i in 0..runs.len() {
         let between = beside(&runs, i, closed).iter().all(|r| r.is_some_and(|r| r.state == State::Visible));
         if runs[i].state == State::Hidden && runs[i].length < limits.noise && between {
             runs[i].state = State::Visible;
         }
     }
-    runs = rejoin(runs);
+    rejoin(&mut runs);
     // The shortest first: a run that grows by a merge may then be long enough.
     while runs.len() > 1 {
         let Some(i) = (0..runs.len()).min_by(|&i, &j| runs[i].length.total_cmp(&runs[j].length)) else { break };
@@ -267,7 +287,7 @@ fn settle(mut runs: Vec<Run>, limits: &Limits, closed: bool, pierces: impl Fn((u
         } else {
             flip(&mut runs, i);
         }
-        runs = rejoin(runs);
+        rejoin(&mut runs);
     }
     runs
 }

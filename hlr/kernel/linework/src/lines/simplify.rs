@@ -20,13 +20,14 @@ pub fn off<const N: usize>(p: &[f64; N], a: &[f64; N], b: &[f64; N]) -> f64 {
     d2.sqrt()
 }
 
-/// Simplifies one line. `wanted`: per vertex, whether it must stay.
-pub fn simplify(line: &mut Polyline, wanted: &[bool], flat_tolerance: f64, space_tolerance: f64) {
+/// Simplifies one line. `wanted`: vertices that must stay.
+pub fn simplify(line: &mut Polyline, wanted: &[usize], flat_tolerance: f64, space_tolerance: f64) {
     let n = line.flat.len();
     if n < 3 {
         return;
     }
-    let mut keep = wanted.to_vec();
+    let mut keep = vec![false; n];
+    wanted.iter().for_each(|&i| keep[i] = true);
     keep[0] = true;
     keep[n - 1] = true;
     if line.flat[0] == line.flat[n - 1] {
@@ -67,9 +68,9 @@ mod tests {
         let space = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 1.0], [4.0, 0.0, 0.0]];
         let mut line = Polyline { visible: true, flat, space, ..Polyline::default() };
         let mut pinned = line.clone();
-        simplify(&mut line, &[false; 5], 0.01, 0.01);
+        simplify(&mut line, &[], 0.01, 0.01);
         assert_eq!(line.flat, [[0.0, 0.0], [2.0, 0.0], [3.0, 0.0], [4.0, 0.0]]);
-        simplify(&mut pinned, &[false, true, false, false, false], 0.01, 0.01);
+        simplify(&mut pinned, &[1], 0.01, 0.01);
         assert_eq!(pinned.flat.len(), 5);
     }
 }

@@ -9,6 +9,7 @@
 //! ```
 
 use rayon::prelude::*;
+use smallvec::SmallVec;
 
 use super::face::{Face, Place, mean};
 use super::grazing::{Dents, Grazing, dents, grazed};
@@ -90,7 +91,7 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
     };
     let curved = |t: i32| model.faces[model.triangle_face[t as usize] as usize].curved;
     let around = |e: usize| &model.incident[model.offsets[e] as usize..model.offsets[e + 1] as usize];
-    let sides_of = |e: usize| -> Vec<Side> {
+    let sides_of = |e: usize| -> SmallVec<[Side; 2]> {
         let asked = around(e).iter().filter(|&&t| traced(t) && (curved(t) || model.smooth[e]));
         asked.filter_map(|&t| side(model, values, e, t)).collect()
     };

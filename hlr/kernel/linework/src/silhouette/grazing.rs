@@ -11,6 +11,7 @@
 //! ```
 
 use rustc_hash::FxHashSet;
+use smallvec::{SmallVec, smallvec};
 
 use super::face::{Face, root};
 use super::refine::rise;
@@ -73,8 +74,11 @@ pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], dents: &D
     let dented =
         |side: &Side| dented(model, side) || side.corners.iter().any(|&vertex| dents.contains(&(side.number, vertex)));
     let grazes = |side: &&Side| side.face.is_some() && (seen_edge_on(model, side) || dented(side));
-    let found: Vec<(&Side, Vec<(f64, f64)>)> = sides.iter().filter(grazes).map(|side| (side, turns(side))).collect();
-    let mut stops: Vec<f64> = found.iter().flat_map(|(_, turns)| turns.iter().map(|turn| turn.0)).collect();
+    let found: SmallVec<[(&Side, Turns); 2]> = sides.iter().filter(grazes).map(|side| (side, turns(side))).collect();
+    if found.is_empty() {
+        return;
+    }
+    let mut stops: SmallVec<[f64; 6]> = found.iter().flat_map(|(_, turns)| turns.iter().map(|turn| turn.0)).collect();
     stops.extend([0.0, 1.0]);
     stops.sort_by(f64::total_cmp);
     stops.dedup();
@@ -215,12 +219,14 @@ fn uv_at(side: &Side, t: f64) -> [f64; 2] {
     [0, 1].map(|k| side.uv[0][k] + (side.uv[1][k] - side.uv[0][k]) * t)
 }
 
-/// The parameters (from 0) at which a face turns over along its edge, each with the sign of f from there on. The sign
-/// is 0 where the face is parallel to the line of sight.
-fn turns(side: &Side) -> Vec<(f64, f64)> {
-    let Some(face) = &side.face else { return Vec::new() };
+/// Parameters (from 0) at which a face turns over along its edge, each with the sign of f from there on. The sign is 0
+/// where the face is parallel to the line of sight.
+type Turns = SmallVec<[(f64, f64); 2]>;
+
+fn turns(side: &Side) -> Turns {
+    let Some(face) = &side.face else { return Turns::new() };
     let [first, last] = side.f.map(sign);
-    if first == last && first != 0.0 && follows_cosine(side) { vec![(0.0, first)] } else { searched(side, face) }
+    if first == last && first != 0.0 && follows_cosine(side) { smallvec![(0.0, first)] } else { searched(side, face) }
 }
 
 /// 0 where a face is parallel to the line of sight.
@@ -229,11 +235,12 @@ fn sign(f: f64) -> f64 {
 }
 
 /// `turns`, found by asking at places along the edge.
-fn searched(side: &Side, face: &Face) -> Vec<(f64, f64)> {
+fn searched(side: &Side, face: &Face) -> Turns {
     let uv = |t: f64| uv_at(side, t);
-    let asked: Vec<(f64, f64)> = asked(side).into_iter().filter(|&(_, f)| sign(f) != 0.0).collect();
-    let Some(&(_, first)) = asked.first() else { return vec![(0.0, 0.0)] };
-    let mut out = vec![(0.0, sign(first))];
+    let mut asked: SmallVec<[(f64, f64); ASKED + 1]> = asked(side).into();
+    asked.retain(|(_, f)| sign(*f) != 0.0);
+    let Some(&(_, first)) = asked.first() else { return smallvec![(0.0, 0.0)] };
+    let mut out: Turns = smallvec![(0.0, sign(first))];
     for pair in asked.windows(2) {
         let [(s, f), (t, g)] = [pair[0], pair[1]];
         if sign(f) != sign(g) {

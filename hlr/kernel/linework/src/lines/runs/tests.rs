@@ -87,7 +87,7 @@ fn a_long_run_is_hidden_from_where_the_line_goes_through_a_surface() {
     use State::{Diving as D, Hidden as H, Visible as V, Within as W};
     let through = |states: &[State], at: usize, closed: bool| {
         let run = |(k, &state): (usize, &State)| Run { state, from: (k, 0.0), to: (k + 1, 0.0), length: 3.0 };
-        let runs: Vec<Run> = states.iter().enumerate().map(run).collect();
+        let runs: Runs = states.iter().enumerate().map(run).collect();
         let settled = settle(runs, &LIMITS, closed, |stop| stop.0 == at);
         settled.iter().map(|run| (run.state == V, run.from.0, run.to.0)).collect::<Vec<_>>()
     };
