@@ -327,6 +327,24 @@ def test_the_planner_remembers_and_forks():
     assert forced.on("costly", Facts(groups=1)) and not forced.on("wish")
 
 
+def test_what_is_stated_is_decided_when_somebody_reads_it():
+    asked = []
+    table = (Effect("late", SCENE, lambda f, o: (asked.append(f.groups) or f.groups > 1, f"{f.groups} groups"), ()),)
+    planner = Planner(table, options=False)
+    planner.state(Facts(groups=1), "late")
+    assert not asked, "nobody has read it"
+    fork = planner.fork()
+    fork.state(Facts(groups=2), "late")
+    assert [(d.on, d.reason) for d in fork.decisions()[:-1]] == [(True, "2 groups")]
+    assert [(d.on, d.reason) for d in planner.decisions()[:-1]] == [(False, "1 groups")], "the fork is its own"
+    # The last word counts, whichever it is.
+    assert planner.on("late", Facts(groups=3)) and planner.decisions()[0].reason == "3 groups"
+    planner.state(Facts(groups=4), "late")
+    assert planner.decisions()[0].reason == "4 groups"
+    planner.revised("late", False, "it proved wrong")
+    assert planner.decisions()[0].reason == "it proved wrong"
+
+
 def test_the_table_for_people():
     text = explained(
         (Decision("outlines", True, SCENE, "one face", 0.0123, {"outlines": 2}), Decision("fill", False, "asked", "no"))

@@ -246,6 +246,23 @@ def test_leaving_triangles_out_of_some_parts_gives_what_putting_all_parts_togeth
             tables.with_triangles(*wrong)
 
 
+def test_parts_are_counted_by_what_they_are():
+    mesh = box((10, 20, 30))
+    plain = part_of((mesh.vertices, mesh.faces))
+    tables = combine_parts([plain, plain]).tables
+    assert (tables.breps, tables.planar_faces) == (0, int(tables.face_planar.sum()))
+    count = len(plain.triangles)
+    assert tables.fewest_and_all(np.array([0, 1, 1], np.int32)) == (count, 3 * count)
+    assert tables.fewest_and_all(np.zeros(0, np.int32)) == (0, 0)
+    with pytest.raises(ValueError, match="part"):
+        tables.fewest_and_all(np.array([2], np.int32))
+    found = tables.facts().scene()
+    assert (found.folded, found.curved_faces, len(found.reports)) == (0, 0, 2)
+    assert found.groups().meeting() == 2, "both stand in one place"
+    far = part_of((mesh.vertices + 500.0, mesh.faces))
+    assert combine_parts([plain, far]).tables.facts().scene().groups().meeting() == 0
+
+
 @pytest.mark.parametrize("again", range(12))
 def test_a_repetition_is_noticed_wherever_it_is(again):
     mesh = box((10, 20, 30))

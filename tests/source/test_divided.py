@@ -45,6 +45,18 @@ def test_instances_share_one_prototype():
     assert [part.prototype for part in collector.parts] == [0, 0, 1]
 
 
+def test_one_shape_alone_is_divided_as_in_a_compound():
+    for name, shape in shapes().items():
+        for each in (shape, placed(shape), shape.Reversed()):
+            alone, whole = shape_stream([each]), shape_stream([each, each])
+            assert alone is not None and whole is not None
+            model, (pieces, places) = _kernel.BrepModel.divided(alone, alone=True)
+            of_two, (twice, both) = _kernel.BrepModel.divided(whole)
+            assert twice == pieces * 2, name
+            assert np.array_equal(both, np.concatenate([places, places])), name
+            assert np.array_equal(of_two.counts(), model.counts()), name
+
+
 def test_damaged_streams_are_refused():
     stream = shape_stream([shapes()["compound"]])
     assert stream is not None
