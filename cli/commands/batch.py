@@ -91,7 +91,7 @@ CHANGED = 3
 @click.option("--init", is_flag=True, help="Write a manifest hlr.toml for the models here, to be changed at will.")
 @click.option("--list", "only_list", is_flag=True, help="Print the files that would be written, and draw nothing.")
 @click.option("--dry-run", is_flag=True, help="Print which sources would be drawn, and which are unchanged.")
-@click.option("--prune", is_flag=True, help="Remove drawings of earlier runs whose sources are gone.")
+@click.option("--prune", is_flag=True, help="Remove drawings of earlier runs that the batch draws no more.")
 @click.option("--watch", is_flag=True, help="Stay, and draw again what changes on disk. Ctrl-C ends it.")
 @NO_CACHE
 @click.option("-q", "--quiet", is_flag=True, help="Print failures only, and with --fail-on-change a change.")

@@ -1,4 +1,7 @@
-"""Stale drawings: those of an earlier run that still lie in the folder of outputs, though their sources are gone.
+"""Stale drawings: those of an earlier run that still lie in the folder of outputs, though the batch draws them no more.
+
+Their sources are gone, or are drawn without these views, sections or formats. A source that is there, but is no part of
+the batch, may be left out of this run only: its drawings stay.
 
 What an earlier run has drawn stands in its report, `manifest.json`. Nothing else in the folder is looked at.
 """
@@ -23,9 +26,11 @@ Stale = dict[str, str]
 def stale(plan: Plan) -> list[Stale]:
     """The stale drawings, by name. Call it before the new report is written."""
     planned = {name.casefold() for job in plan.jobs for names in job.files for name in names}
+    drawn = {_place(Path(job.root, job.source)) for job in plan.jobs}
     found = {}
-    for name, source, is_gone in _earlier(plan.output):
-        if is_gone and name.casefold() not in planned and _is_drawing(plan.output, name):
+    for name, source, path in _earlier(plan.output):
+        is_no_more = not os.path.lexists(path) or _place(path) in drawn
+        if is_no_more and name.casefold() not in planned and _is_drawing(plan.output, name):
             found[name] = source
     return [{"file": name, "source": found[name]} for name in sorted(found)]
 
@@ -35,7 +40,7 @@ def told(rows: Sequence[Stale], output: Path) -> str:
     names = ", ".join(row["file"] for row in rows[:MOST_NAMED])
     more = f" and {len(rows) - MOST_NAMED} more" if len(rows) > MOST_NAMED else ""
     one = len(rows) == 1
-    why = "stays though its source is gone" if one else "stay though their sources are gone"
+    why = "stays though the batch draws it no more" if one else "stay though the batch draws them no more"
     return (
         f"{counted(len(rows), 'drawing')} in {output} {why}: {names}{more}; --prune removes {'it' if one else 'them'}"
     )
@@ -59,8 +64,13 @@ def folder_of(plan: Plan) -> str | None:
     return None
 
 
-def _earlier(output: Path) -> Iterator[tuple[str, str, bool]]:
-    """The drawings that the last report has: name, source, and whether the source is gone. A broken one has none."""
+def _place(path: Path) -> str:
+    """One name for a file, however its path is written."""
+    return os.path.normcase(os.path.realpath(path))
+
+
+def _earlier(output: Path) -> Iterator[tuple[str, str, Path]]:
+    """The drawings that the last report has: name, source as it has it, and its path. A broken one has none."""
     with suppress(OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
         report: dict[str, Any] = json.loads((output / "manifest.json").read_bytes())
         root = output / report["folder"]
@@ -68,7 +78,7 @@ def _earlier(output: Path) -> Iterator[tuple[str, str, bool]]:
         for source in report["sources"]:
             rows += [(name, source["source"]) for drawing in source["drawings"] for name in drawing["files"].values()]
         for name, path in rows:
-            yield str(name), str(path), not os.path.lexists(root / path)
+            yield str(name), str(path), root / path
 
 
 def _is_drawing(output: Path, name: str) -> bool:

@@ -1,4 +1,4 @@
-"""Drawings of earlier runs whose sources are gone are named, and removed only where that is asked for."""
+"""Drawings of earlier runs that the batch draws no more are named, and removed only where that is asked for."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_they_are_named_until_they_are_removed(folder):
     (folder / "sub/b.off").unlink()
     drawing = folder / "drawings/sub/b-front.svg"
     for _ in range(2):
-        why = "stays though its source is gone: sub/b-front.svg; --prune removes it."
+        why = "stays though the batch draws it no more: sub/b-front.svg; --prune removes it."
         assert f"1 drawing in {folder / 'drawings'} {why}" in run() and drawing.exists()
         assert report(folder)["stale"] == [{"file": "sub/b-front.svg", "source": "sub/b.off"}]
         assert "| sub/b-front.svg | sub/b.off |" in (folder / "drawings/summary.md").read_text()
@@ -89,9 +89,38 @@ def test_a_broken_report_has_none(folder, text):
     assert stale(asked) == []
 
 
+@pytest.mark.slow
+def test_a_section_that_is_asked_for_no_more_is_stale(folder):
+    def drawn(section, *more):
+        (folder / "hlr.toml").write_text(f'formats = ["json"]\n{section}')
+        return run(*more)
+
+    drawn('section = { front = true }\nwhole = ["front"]')
+    output = folder / "drawings"
+    (output / "a-front-B.json").write_text("{}")
+    (folder / "sub/c.off").unlink()
+    names = ("a-front-A.json", "sub/b-front-A.json", "sub/c-front-A.json", "sub/c-front.json")
+    for _ in range(2):
+        assert f"stay though the batch draws them no more: {', '.join(names)}; --prune removes them." in drawn("")
+    assert report(folder)["stale"] == [{"file": name, "source": f"{name.split('-')[0]}.off"} for name in names]
+    assert "4 stale drawings removed." in drawn("", "--prune") and report(folder)["stale"] == []
+    left = {path.relative_to(output).as_posix() for path in output.rglob("*-front*.json")}
+    assert left == {"a-front.json", "a-front-B.json", "sub/b-front.json"}
+
+
+def test_a_source_that_is_there_keeps_its_drawings_unless_it_is_drawn(folder):
+    asked = planned(folder, "old-top.svg")
+    (folder / "drawings/old-top.svg").write_text("")
+    tetrahedron(folder / "old.off", 1)
+    assert stale(asked) == []
+    assert stale(plan(manifest_of({"views": ["front"]}, folder), asked.output)) == [
+        {"file": "old-top.svg", "source": "old.off"}
+    ]
+
+
 def test_of_many_some_are_named(tmp_path):
     rows = [{"file": f"{i}.svg", "source": "a.off"} for i in range(7)]
     assert told(rows, tmp_path) == (
-        f"7 drawings in {tmp_path} stay though their sources are gone: 0.svg, 1.svg, 2.svg, 3.svg, 4.svg and 2 more; "
-        "--prune removes them"
+        f"7 drawings in {tmp_path} stay though the batch draws them no more: 0.svg, 1.svg, 2.svg, 3.svg, 4.svg "
+        "and 2 more; --prune removes them"
     )
