@@ -10,10 +10,12 @@ that runs in it would inherit that. Only `nohup` is a wish, so an ignored hang-u
 
 from __future__ import annotations
 
+import _thread
 import os
 import signal
 import sys
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
@@ -82,9 +84,12 @@ def tidily() -> Iterator[StopRequest]:
     if not caught or not _in_main_thread():  # a block around this one may have caught them all
         yield asked
         return
-    hook = sys.unraisablehook
+    hook, asking_again = sys.unraisablehook, False
 
-    def stop(number: int, frame: FrameType | None) -> NoReturn:
+    def stop(number: int, frame: FrameType | None) -> None:
+        if asking_again:  # an exception here would be lost as well, and nobody would ask a third time
+            _thread.start_new_thread(_send_again, (number,))
+            return
         # Ctrl-C arrives twice, from the terminal and from the waiting process: the second must not disturb the tidying.
         for other in caught:
             signal.signal(other, signal.SIG_IGN)
@@ -96,9 +101,11 @@ def tidily() -> Iterator[StopRequest]:
             hook(lost)
             return
         # Raised in a destructor, it ends nothing: the same signal again, when the destructor is done.
-        number = lost.exc_value.number
+        nonlocal asking_again
+        asking_again, number = True, lost.exc_value.number
         signal.signal(number, stop)
-        threading.Timer(_AGAIN_S, os.kill, (os.getpid(), number)).start()
+        _thread.start_new_thread(_send_again, (number,))
+        asking_again = False
 
     sys.unraisablehook = unraisable
     for number in caught:
@@ -115,6 +122,12 @@ def tidily() -> Iterator[StopRequest]:
         sys.unraisablehook = hook
         for number in caught:
             signal.signal(number, before[number])
+
+
+def _send_again(number: int) -> None:
+    """Send this process the signal in a moment; in a thread of its own."""
+    time.sleep(_AGAIN_S)
+    os.kill(os.getpid(), number)
 
 
 def die_by(number: int) -> NoReturn:

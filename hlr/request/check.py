@@ -72,7 +72,7 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
         for name in ("perspective", "report"):
             if options.section is not None and getattr(options, name):
                 raise OptionError(f"a section has no {name}: leave out {name}, or section")
-    if options.whole:
+    if not isinstance(options.whole, _SEQUENCES) or len(options.whole) > 0:
         from hlr.request.section import checked_whole
 
         options = replace(options, whole=checked_whole(options.whole))
