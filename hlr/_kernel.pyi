@@ -647,9 +647,9 @@ class Cut:
     """Lines on paper: pieces joined along chains, coincident lines merged, short figures dropped, vertices thinned out.
 
     ranks (k,) uint8, by line class: of coincident lines the lower sixteen is drawn, of equal ones the nearer, then the
-    lower; hidden: whether hidden lines are drawn; true_points (n, 3):
-    those of the mesh, with the points of intersection lines on the true surfaces. ValueError where they do not fit,
-    KeyboardInterrupt within milliseconds of Ctrl-C.
+    lower; hidden: whether hidden lines are drawn; true_points (n, 3): those of the mesh, with the points of
+    intersection lines on the true surfaces. ValueError where they do not fit, KeyboardInterrupt within milliseconds of
+    Ctrl-C.
     """
 
     def __new__(
@@ -1021,11 +1021,14 @@ class PartTables:
     face_shape: Ints
     face_place: Floats
     face_reversed: Bools
-    breps: int
+    brep_parts: int
     planar_faces: int
     def __len__(self) -> int: ...
-    def fewest_and_all(self, part: Ints) -> tuple[int, int]:
-        """The fewest triangles that one of these parts has, and how many all have; without parts 0. ValueError."""
+    def triangle_counts(self, part: Ints) -> tuple[int, int]:
+        """The fewest triangles that one of these parts (m,) has, and how many all have together; without parts 0.
+
+        ValueError: a number is out of range.
+        """
 
     def placed(self, part: Ints, transform: Floats, precision: Floats) -> PartTables:
         """These parts (m,), any of them any number of times, each moved by its transform (m, 3, 4)."""

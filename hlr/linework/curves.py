@@ -55,9 +55,9 @@ def guides(
 ) -> Guides | None:
     """The curves of chains; None where no line can have one. Only the curves of lines that were cut are looked up."""
     round_ = circles(image, plan, chains)
-    none_of_edges = chains.all_straight or edge_curves is None
-    none_of_its_own = image.silhouettes is None and image.intersections is None and round_ is None
-    if none_of_edges and none_of_its_own and not plan.every_curve:
+    edges_are_straight = chains.all_straight or edge_curves is None
+    no_other_curves = image.silhouettes is None and image.intersections is None and round_ is None
+    if edges_are_straight and no_other_curves and not plan.every_curve:
         return None
     edge, part, straight = chains.edge, chains.part, chains.straight
     # number (c,): the outline or circle of each chain; both are in model coordinates already.

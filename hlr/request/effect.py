@@ -167,7 +167,7 @@ class Planner:
         self._options = options
         self._force = _FORCED.get() if force is None else force
         self._answers: dict[str, Answer] = {}
-        self._open: dict[str, Facts] = {}
+        self._stated: dict[str, Facts] = {}
         self._seconds: dict[str, float] = {}
         self._counts: dict[str, Mapping[str, int]] = {}
         self.took = 0.0
@@ -182,14 +182,14 @@ class Planner:
 
         What the effect has cost so far stays: a model may be meshed twice.
         """
-        self._open.pop(name, None)
+        self._stated.pop(name, None)
         answer = self._answers[name] = self._answer(name, facts)
         return answer[0]
 
     def state(self, facts: Facts, *names: str) -> None:
         """State the facts for effects that no step waits for: they are decided when somebody reads the decisions."""
         for name in names:
-            self._open[name] = facts
+            self._stated[name] = facts
 
     def _answer(self, name: str, facts: Facts) -> Answer:
         effect = self._rows[name]
@@ -222,14 +222,14 @@ class Planner:
 
     def revised(self, name: str, on: bool, reason: str) -> None:
         """Change a decision that proved wrong while the work was done."""
-        self._open.pop(name, None)
+        self._stated.pop(name, None)
         self._answers[name] = on, reason
 
     def fork(self) -> Planner:
         """A planner for one view, which begins with the decisions made for all views."""
         other = Planner((), self._options, self._force)
         other._rows, other.took = self._rows, self.took
-        other._answers, other._open = self._answers.copy(), self._open.copy()
+        other._answers, other._stated = self._answers.copy(), self._stated.copy()
         other._seconds, other._counts = self._seconds.copy(), self._counts.copy()
         return other
 
@@ -240,7 +240,7 @@ class Planner:
     def decisions(self, counters: Mapping[str, int] | None = None) -> tuple[Decision, ...]:
         """All that was decided, in the order of the table; counters: of the finished drawing."""
         found = counters or {}
-        answers = self._answers | {name: self._answer(name, facts) for name, facts in self._open.items()}
+        answers = self._answers | {name: self._answer(name, facts) for name, facts in self._stated.items()}
         out = []
         for name, effect in self._rows.items():
             if name in answers:

@@ -44,7 +44,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
     edges, offsets, edge_group, kind = mesh.edges, mesh.offsets, found.edge_group, found.edge_kind
     groups = found.groups()
     walks, facets, drawn = found.walks(), None, None
-    if tables.breps < len(tables) and len(edges):
+    if tables.brep_parts < len(tables) and len(edges):
         reliable = reliable_normals(mesh, points, tables.triangles, found.triangle_part, tables.precision)
         turned = found.turned
         facets = reliable.normals if turned is None else np.where(turned[:, None], -reliable.normals, reliable.normals)

@@ -40,7 +40,7 @@ def part_reports(
     named: Collection[str] = ()
     if any([counts[0] for _, _, counts in reports]):
         named = surface_parts()
-        if whole.tables.breps:
+        if whole.tables.brep_parts:
             bordering = _border_edges(found, offsets, len(reports))
     out = []
     for i, (label, (brep, faces, counts)) in enumerate(zip(whole.labels, reports, strict=True)):

@@ -49,6 +49,18 @@ def test_in_several_destructors(tmp_path):
     assert ends(tmp_path, "Destroyed()\nDestroyed()\ntime.sleep(10)\nos._exit(7)") == (-signal.SIGINT, "")
 
 
+def test_while_a_lost_one_is_sent_again(tmp_path):
+    inside = (
+        "from types import SimpleNamespace\nfrom hlr.cli import signals\n"
+        "start, sent = signals._thread.start_new_thread, []\n"
+        "def sending(work, arguments):\n    if not sent:\n        sent.append(1)\n"
+        "        os.kill(os.getpid(), signal.SIGINT)\n        time.sleep(0.001)\n    start(work, arguments)\n"
+        "signals._thread = SimpleNamespace(start_new_thread=sending)\n"
+        "Destroyed()\ntime.sleep(10)\nos._exit(7)"
+    )
+    assert ends(tmp_path, inside) == (-signal.SIGINT, "")
+
+
 def test_while_the_garbage_collector_calls_back(tmp_path):
     inside = "gc.callbacks.append(collecting)\ngc.collect()\ngc.callbacks.clear()\ntime.sleep(10)\nos._exit(7)"
     assert ends(tmp_path, inside) == (-signal.SIGINT, "")

@@ -31,6 +31,18 @@ def edge_sheet(edge: Any) -> Any:
     return cq.Shape.cast(BRepPrimAPI_MakePrism(edge.wrapped, gp_Vec(1, 2, 9)).Shape())
 
 
+def test_a_flat_face_is_bounded_by_arcs_though_no_face_is_curved() -> None:
+    disc = cq.Face.makeFromWires(cq.Wire.makeCircle(5, cq.Vector(), cq.Vector(0, 0, 1)))
+    (line,) = hlr.draw(disc, view="top", **AT_SIZE).lines
+    assert isinstance(line.curve, Arc) and line.curve.axes[0] @ line.curve.axes[0] == pytest.approx(25)
+
+
+def test_without_curved_edges_no_curve_is_looked_up() -> None:
+    box = hlr.draw(cq.Workplane().box(3, 2, 1), view="iso", **AT_SIZE)
+    assert box.counters["curves_sought"] == 0 and len(box.lines) == 12
+    assert all(line.curve is None for line in box.lines)
+
+
 def conics() -> dict[str, Any]:
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
     from OCP.gp import gp_Ax2, gp_Circ, gp_Dir, gp_Elips, gp_Hypr, gp_Parab, gp_Pnt

@@ -249,14 +249,15 @@ def test_leaving_triangles_out_of_some_parts_gives_what_putting_all_parts_togeth
 def test_parts_are_counted_by_what_they_are():
     mesh = box((10, 20, 30))
     plain = part_of((mesh.vertices, mesh.faces))
-    tables = combine_parts([plain, plain]).tables
-    assert (tables.breps, tables.planar_faces) == (0, int(tables.face_planar.sum()))
-    count = len(plain.triangles)
-    assert tables.fewest_and_all(np.array([0, 1, 1], np.int32)) == (count, 3 * count)
-    assert tables.fewest_and_all(np.zeros(0, np.int32)) == (0, 0)
+    fewer = part_of((mesh.vertices, mesh.faces[:8]))
+    tables = combine_parts([plain, fewer]).tables
+    assert (tables.brep_parts, tables.planar_faces) == (0, int(tables.face_planar.sum()))
+    assert tables.triangle_counts(np.array([0, 1, 1], np.int32)) == (8, 12 + 8 + 8)
+    assert tables.triangle_counts(np.array([0], np.int32)) == (12, 12)
+    assert tables.triangle_counts(np.zeros(0, np.int32)) == (0, 0)
     with pytest.raises(ValueError, match="part"):
-        tables.fewest_and_all(np.array([2], np.int32))
-    found = tables.facts().scene()
+        tables.triangle_counts(np.array([2], np.int32))
+    found = combine_parts([plain, plain]).tables.facts().scene()
     assert (found.folded, found.curved_faces, len(found.reports)) == (0, 0, 2)
     assert found.groups().meeting() == 2, "both stand in one place"
     far = part_of((mesh.vertices + 500.0, mesh.faces))

@@ -218,7 +218,7 @@ class BrepSource:
             ) from None
         prototypes, kept, notes = self._used_numbers, self._parts, []
         transforms = np.ascontiguousarray(self._places[:, :3])
-        fewest, triangles = tables.fewest_and_all(prototypes)
+        fewest, triangles = tables.triangle_counts(prototypes)
         if faults or not fewest:
             starts = tables.triangle_start
             triangles_of = (starts[1:] - starts[:-1])[prototypes]
@@ -246,7 +246,7 @@ class BrepSource:
             found = surfaces.edge_curves((distinct >> 32).astype(np.int32), distinct.astype(np.int32))
             return EdgeCurves(found, which.ravel().astype(np.int32), part, transforms)
 
-        parts = PartMeshes(kept, placed, surfaces if placed.breps else None)
+        parts = PartMeshes(kept, placed, surfaces if placed.brep_parts else None)
         rescued = len(faults.rescued) + len(faults.crossed)
         return Tessellation(parts, notes, rescued, len(faults.lost), edge_curves, self._surface_parts)
 
@@ -258,7 +258,7 @@ class BrepSource:
 def _precisions(tables: _kernel.PartTables) -> Floats:
     """(p,) coordinate precision of parts that a file stores as triangles alone; 0 for all others."""
     out = np.zeros(len(tables))
-    if tables.breps == len(tables):
+    if tables.brep_parts == len(tables):
         return out
     for i in np.flatnonzero(~tables.brep).tolist():
         a, b = tables.point_start[i : i + 2]

@@ -197,7 +197,7 @@ arrays! { PartTables {
 
     /// How many parts have a B-rep.
     #[getter]
-    fn breps(&self) -> usize {
+    fn brep_parts(&self) -> usize {
         self.0.brep.iter().filter(|&&brep| brep).count()
     }
 
@@ -207,8 +207,8 @@ arrays! { PartTables {
         self.0.face_planar.iter().filter(|&&planar| planar).count()
     }
 
-    /// The fewest triangles that one of these parts has, and how many all have; none: 0.
-    fn fewest_and_all(&self, part: PyReadonlyArray1<'_, i32>) -> PyResult<(usize, usize)> {
+    /// The fewest triangles that one of these parts has, and how many all have together; without parts 0.
+    fn triangle_counts(&self, part: PyReadonlyArray1<'_, i32>) -> PyResult<(usize, usize)> {
         let part = slice(&part, "part")?;
         expect_below("part", part.iter().copied(), self.0.len())?;
         let start = &self.0.triangle_start;

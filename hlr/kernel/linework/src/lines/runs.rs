@@ -242,6 +242,7 @@ fn settle(mut runs: Runs, limits: &Limits, closed: bool, pierces: impl Fn((usize
     if let [run] = &runs[..]
         && matches!(run.state, State::Visible | State::Hidden)
     {
+        // As of most lines: one run, whose state is known.
         return runs;
     }
     let mut through = vec![false; runs.len()];

@@ -223,6 +223,7 @@ fn uv_at(side: &Side, t: f64) -> [f64; 2] {
 /// where the face is parallel to the line of sight.
 type Turns = SmallVec<[(f64, f64); 2]>;
 
+/// Where a face turns over along its edge.
 fn turns(side: &Side) -> Turns {
     let Some(face) = &side.face else { return Turns::new() };
     let [first, last] = side.f.map(sign);
