@@ -10,6 +10,7 @@ use super::bands::{Bands, clipped_x, y_range};
 use super::edge_table::Contour;
 use super::invisibility::Event;
 use super::mesh::Mesh;
+use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
 use hlr_exact::predicates::crossing;
 
@@ -19,6 +20,47 @@ pub struct Crossings<P> {
     pub bands: usize,
 }
 
+/// An edge that is a contour, drawn, or both: it comes into a band once.
+#[derive(Clone, Copy)]
+struct Both {
+    edge: u32,
+    /// Its number among the contours, or NONE.
+    contour: u32,
+    /// Its number among the drawn edges, or NONE.
+    drawn: u32,
+}
+
+const NONE: u32 = u32::MAX;
+
+/// The edges of both lists, which ascend, each once.
+fn both(contours: &[Contour], drawn: &[u32]) -> Vec<Both> {
+    let mut out = Vec::with_capacity(contours.len().max(drawn.len()));
+    let (mut i, mut j) = (0, 0);
+    while i < contours.len() || j < drawn.len() {
+        let (c, f) = (contours.get(i).map_or(NONE, |c| c.edge), drawn.get(j).map_or(NONE, |&e| e));
+        let edge = c.min(f);
+        let number = |here: bool, number: usize| if here { number as u32 } else { NONE };
+        out.push(Both { edge, contour: number(c == edge, i), drawn: number(f == edge, j) });
+        i += usize::from(c == edge);
+        j += usize::from(f == edge);
+    }
+    out
+}
+
+/// The part of an edge in a band.
+#[derive(Clone, Copy)]
+struct Part {
+    a: Point,
+    b: Point,
+    xmin: i32,
+    xmax: i32,
+    group: i32,
+    /// Numbers of `Both`.
+    contour: u32,
+    drawn: u32,
+}
+
+/// What decides whether two parts may cross.
 #[derive(Clone, Copy)]
 struct Entry {
     xmin: i32,
@@ -27,7 +69,25 @@ struct Entry {
     ymax: i32,
     /// Contours: nearest depth. Drawn edges: farthest depth.
     z: i32,
-    item: u32,
+    /// Number among the parts of the band.
+    part: u32,
+}
+
+/// From left to right, and by number where they begin at the same place.
+fn from_left(order: &mut [u64], parts: &[Part], depth: impl Fn(i32, i32) -> i32) -> Vec<Entry> {
+    order.sort_unstable();
+    let entry = |&key: &u64| {
+        let part = &parts[(key & 0xffff_ffff) as usize];
+        let (ymin, ymax) = y_range(&part.a, &part.b);
+        let z = depth(part.a[2], part.b[2]);
+        Entry { xmin: part.xmin, xmax: part.xmax, ymin, ymax, z, part: key as u32 }
+    };
+    order.iter().map(entry).collect()
+}
+
+/// Orders by place first, then by number.
+fn key(x: i32, number: usize) -> u64 {
+    u64::from(x as u32 ^ 1 << 31) << 32 | number as u64
 }
 
 pub fn crossings<A: Arithmetic>(
@@ -36,40 +96,43 @@ pub fn crossings<A: Arithmetic>(
     contours: &[Contour],
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Crossings<A::Parameter> {
-    let range = |e: u32| {
-        let (a, b) = mesh.ends(e as usize);
+    let items = both(contours, drawn);
+    let range = |of: &Both| {
+        let (a, b) = mesh.ends(of.edge as usize);
         y_range(a, b)
     };
-    // Contours first, then drawn edges: one edge table for both.
-    let ranges: Vec<(i32, i32)> =
-        contours.par_iter().map(|c| range(c.edge)).chain(drawn.par_iter().map(|&e| range(e))).collect();
-    let bands = Bands::choose(&ranges, 0.75);
-    let (offsets, items) = bands.bucket(&ranges);
-    let first_drawn = contours.len() as u32;
+    let ranges: Vec<(i32, i32)> = items.par_iter().with_min_len(1 << 12).map(range).collect();
+    let as_both = |k: usize| 1 + usize::from(items[k].contour != NONE && items[k].drawn != NONE);
+    let bands = Bands::choose(&ranges, as_both, 0.75);
+    let (offsets, bucketed) = bands.bucket(&ranges);
     let found: Vec<(Vec<Event<A::Parameter>>, u64)> = (0..bands.count)
         .into_par_iter()
         .map(|k| {
-            let bucket = &items[offsets[k] as usize..offsets[k + 1] as usize];
-            let split = bucket.partition_point(|&i| i < first_drawn);
-            if split == 0 || split == bucket.len() || stopped() {
+            let bucket = &bucketed[offsets[k] as usize..offsets[k + 1] as usize];
+            if stopped() {
                 return (Vec::new(), 0);
             }
             let (y0, y1) = bands.limits(k);
-            let entry = |e: u32, item: u32, near: bool| {
-                let (a, b) = mesh.ends(e as usize);
+            let (mut parts, mut cs, mut fs) = (Vec::with_capacity(bucket.len()), Vec::new(), Vec::new());
+            for &i in bucket {
+                let Both { edge, contour, drawn } = items[i as usize];
+                let (a, b) = mesh.ends(edge as usize);
                 let (xmin, xmax) = clipped_x(a, b, y0, y1);
-                let (ymin, ymax) = y_range(a, b);
-                let z = if near { a[2].min(b[2]) } else { a[2].max(b[2]) };
-                Entry { xmin, xmax, ymin, ymax, z, item }
-            };
-            let by_x = |e: &Entry| (e.xmin, e.item);
-            let mut cs: Vec<Entry> =
-                bucket[..split].iter().map(|&i| entry(contours[i as usize].edge, i, true)).collect();
-            let mut fs: Vec<Entry> =
-                bucket[split..].iter().map(|&i| i - first_drawn).map(|i| entry(drawn[i as usize], i, false)).collect();
-            cs.sort_unstable_by_key(by_x);
-            fs.sort_unstable_by_key(by_x);
-            Sweep::<A> { mesh, drawn, contours, bands: &bands, band: k, events: Vec::new(), tests: 0 }.run(&cs, &fs)
+                let key = key(xmin, parts.len());
+                if contour != NONE {
+                    cs.push(key);
+                }
+                if drawn != NONE {
+                    fs.push(key);
+                }
+                let group = mesh.edge_group[edge as usize];
+                parts.push(Part { a: *a, b: *b, xmin, xmax, group, contour, drawn });
+            }
+            if cs.is_empty() || fs.is_empty() {
+                return (Vec::new(), 0);
+            }
+            let (cs, fs) = (from_left(&mut cs, &parts, i32::min), from_left(&mut fs, &parts, i32::max));
+            Sweep::<A> { mesh, parts, contours, bands: &bands, band: k, events: Vec::new(), tests: 0 }.run(&cs, &fs)
         })
         .collect();
     let tests = found.iter().map(|f| f.1).sum();
@@ -78,7 +141,7 @@ pub fn crossings<A: Arithmetic>(
 
 struct Sweep<'a, A: Arithmetic> {
     mesh: &'a Mesh<'a>,
-    drawn: &'a [u32],
+    parts: Vec<Part>,
     contours: &'a [Contour],
     bands: &'a Bands,
     band: usize,
@@ -128,10 +191,8 @@ impl<A: Arithmetic> Sweep<'_, A> {
             return;
         }
         self.tests += 1;
-        let contour = &self.contours[c.item as usize];
-        let drawn = self.drawn[f.item as usize] as usize;
-        let (a, b) = self.mesh.ends(drawn);
-        let (p, q) = self.mesh.ends(contour.edge as usize);
+        let (front, own) = (&self.parts[c.part as usize], &self.parts[f.part as usize]);
+        let (a, b, p, q) = (&own.a, &own.b, &front.a, &front.b);
         let Some(hit) = crossing::<A>(a, b, p, q) else { return };
         if hit.beneath <= A::Volume::ZERO {
             return;
@@ -149,13 +210,33 @@ impl<A: Arithmetic> Sweep<'_, A> {
                 return;
             }
         }
-        let delta = self.mesh.delta(self.mesh.edge_group[drawn], self.mesh.edge_group[contour.edge as usize]);
-        let jump = contour.jump * hit.to_left;
+        let delta = self.mesh.delta(own.group, front.group);
+        let jump = self.contours[front.contour as usize].jump * hit.to_left;
         self.events.push(Event {
-            drawn: f.item,
+            drawn: own.drawn,
             at: A::crossing(hit.n, hit.d),
             plain: jump,
             moved: if hit.beneath > A::depth(delta) * A::raise(hit.d) { jump } else { 0 },
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_edge_of_both_lists_comes_once() {
+        let contours = [1, 3, 7].map(|edge| Contour { edge, jump: 1 });
+        let found = both(&contours, &[0, 3, 4, 7, 8]).into_iter().map(|of| (of.edge, of.contour, of.drawn));
+        let wanted = [(0, NONE, 0), (1, 0, NONE), (3, 1, 1), (4, NONE, 2), (7, 2, 3), (8, NONE, 4)];
+        assert_eq!(found.collect::<Vec<_>>(), wanted);
+        assert!(both(&[], &[]).is_empty());
+    }
+
+    #[test]
+    fn keys_ascend_from_left_to_right_and_then_by_number() {
+        let keys = [(i32::MIN, 5), (-1, 0), (-1, 9), (0, 3), (1, 1), (i32::MAX, 0)].map(|(x, number)| key(x, number));
+        assert!(keys.is_sorted());
     }
 }

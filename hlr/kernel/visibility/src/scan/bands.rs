@@ -18,21 +18,23 @@ pub struct Bands {
 
 impl Bands {
     /// Chooses a band height: low enough that few items share a band, high enough that an item is in about `spread`
-    /// bands.
-    pub fn choose(ranges: &[(i32, i32)], spread: f64) -> Bands {
+    /// bands. as_many: as how many items each counts.
+    pub fn choose(ranges: &[(i32, i32)], as_many: impl Fn(usize) -> usize, spread: f64) -> Bands {
         let Some(y0) = ranges.iter().map(|r| i64::from(r.0)).min() else {
             return Bands { y0: 0, shift: 31, count: 1 };
         };
         let y1 = ranges.iter().map(|r| i64::from(r.1)).max().unwrap_or(y0);
-        let total: f64 = ranges.iter().map(|r| (i64::from(r.1) - i64::from(r.0)) as f64).sum();
-        let wanted = total / (spread * ranges.len() as f64);
+        let length = |(k, r): (usize, &(i32, i32))| (i64::from(r.1) - i64::from(r.0)) as f64 * as_many(k) as f64;
+        let total: f64 = ranges.iter().enumerate().map(length).sum();
+        let count: usize = (0..ranges.len()).map(&as_many).sum();
+        let wanted = total / (spread * count as f64);
         let height = y1 - y0 + 1;
         let mut shift = 0u32;
         while ((1i64 << shift) as f64) < wanted || (height >> shift) as usize >= MOST_BANDS {
             shift += 1;
         }
         // A handful of items per band is enough: more bands would only cost their own overhead.
-        while (height >> shift) as usize > ranges.len() / 8 + 1 {
+        while (height >> shift) as usize > count / 8 + 1 {
             shift += 1;
         }
         Bands { y0, shift, count: (height >> shift) as usize + 1 }
@@ -135,7 +137,7 @@ mod tests {
     #[test]
     fn every_item_is_in_every_band_it_touches() {
         let ranges = [(0, 100), (50, 50), (99, 100), (-7, 3)];
-        let bands = Bands::choose(&ranges, 0.1);
+        let bands = Bands::choose(&ranges, |_| 1, 0.1);
         let (offsets, items) = bands.bucket(&ranges);
         for (i, r) in ranges.iter().enumerate() {
             for y in r.0..=r.1 {
