@@ -21,7 +21,7 @@ use rayon::prelude::*;
 
 use super::bands::{Bands, MOST_BANDS, Slanted};
 use super::mesh::Mesh;
-use super::polygon_table::PolygonTable;
+use super::polygon_table::{PolygonTable, is_left_out};
 use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
 use hlr_exact::predicates::Cover;
@@ -50,11 +50,12 @@ pub struct Seeds {
 }
 
 impl Seeds {
-    /// Counts for every end of the given edges.
+    /// Counts for every end of the given edges. behind: per group, whether its polygons are left out; empty: of none.
     pub fn new<A: Arithmetic>(
         mesh: &Mesh,
         table: &PolygonTable,
         edges: &[u32],
+        behind: &[bool],
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Seeds {
         let mut slot = vec![u32::MAX; mesh.points.len()];
@@ -78,7 +79,8 @@ impl Seeds {
                 let mut ties = Vec::new();
                 if !stopped() {
                     let chunk = first..(first + POLYGONS_AT_ONCE).min(mesh.triangles.len());
-                    for t in chunk.filter(|&t| table.counted(t)) {
+                    let asked = |&t: &usize| table.counted(t) && !is_left_out(behind, mesh.triangle_group[t]);
+                    for t in chunk.filter(asked) {
                         stops.count::<A>(mesh, t, &strict, &mut ties);
                     }
                 }

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use super::invisibility::Event;
 use super::mesh::Mesh;
-use super::polygon_table::PolygonTable;
+use super::polygon_table::{PolygonTable, is_left_out};
 use crate::boxes::aabb::{Aabb, Item};
 use crate::boxes::tree::Tree;
 use hlr_exact::Point;
@@ -42,10 +42,12 @@ impl<P> Piercings<P> {
     }
 }
 
+/// behind: per group, whether its polygons are left out; empty: of none.
 pub fn piercings<A: Arithmetic>(
     mesh: &Mesh,
     table: &PolygonTable,
     drawn: &[u32],
+    behind: &[bool],
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Piercings<A::Parameter> {
     let boxes = group_boxes(mesh, table);
@@ -57,7 +59,10 @@ pub fn piercings<A: Arithmetic>(
     let largest = mesh.groups.iter().map(|p| p.delta).max().unwrap_or(0);
     let mut members: Vec<Vec<(Aabb, u32)>> = vec![Vec::new(); mesh.groups.len()];
     for (reach, t) in reached(mesh, table, &boxes, &sought, largest) {
-        members[mesh.triangle_group[t as usize] as usize].push((reach, t));
+        let group = mesh.triangle_group[t as usize];
+        if !is_left_out(behind, group) {
+            members[group as usize].push((reach, t));
+        }
     }
     let trees: Vec<Tree> = members.par_iter().map(|items| Tree::new(items)).collect();
     let live: Vec<Item> = (0..mesh.groups.len()).filter(|&p| sought[p]).map(|p| (boxes[p], p as u32)).collect();

@@ -144,6 +144,12 @@ impl PolygonTable {
     }
 }
 
+/// Whether a group's polygons are left out. behind: per group; empty: none are.
+#[inline(always)]
+pub fn is_left_out(behind: &[bool], group: i32) -> bool {
+    behind.get(group as usize) == Some(&true)
+}
+
 #[inline(always)]
 fn facing(bits: u8) -> i8 {
     (bits & FRONT) as i8 - ((bits & BACK) >> 1) as i8

@@ -115,20 +115,26 @@ pub fn visibility_by<A: Arithmetic>(
     }
     // A body wrongly taken for convex may also pass through itself.
     let piercing = steps.piercings || !steps.crossings;
-    // 2. edges that surely lie behind something need no search
+    // 2. edges that surely lie behind something need no search, and what groups that do would hide is hidden without them
+    let mut behind = Vec::new();
     if steps.pyramid {
         let pyramid = DepthPyramid::new(mesh, &table, &edges.contours);
         counters.pyramid_parts = pyramid.groups as u64;
         counters.hidden_by_pyramid = discard(mesh, &pyramid, &mut edges) as u64;
+        behind = pyramid.hidden;
+        edges.contours.retain(|c| !behind[mesh.edge_group[c.edge as usize] as usize]);
         seconds.pyramid = clock.lap();
     }
     // Side by side, for each has stretches on one thread:
     // 3. seeds: the count at both ends of every drawn edge
-    let seeds = || timed(|| Seeds::new::<A>(mesh, &table, &edges.drawn, stopped));
+    let seeds = || timed(|| Seeds::new::<A>(mesh, &table, &edges.drawn, &behind, stopped));
     // 4. crossings and piercings: the jumps between
     let crossed = || timed(|| crossings::<A>(mesh, &edges.drawn, &edges.contours, stopped));
-    let pierced =
-        || timed(|| if piercing { piercings::<A>(mesh, &table, &edges.drawn, stopped) } else { Piercings::none() });
+    let pierced = || {
+        timed(
+            || if piercing { piercings::<A>(mesh, &table, &edges.drawn, &behind, stopped) } else { Piercings::none() },
+        )
+    };
     // for step 7: edges whose own faces are seen edge-on and seem to hide them
     let differing = || {
         timed(|| {
