@@ -5,11 +5,11 @@
 
 use std::sync::OnceLock;
 
-use super::active_spans::Count;
 use super::invisibility::{Event, Segment, walk};
 use super::mesh::Mesh;
 use super::piercing::pierce;
 use super::polygon_table::PolygonTable;
+use super::query_points::Count;
 use crate::boxes::aabb::Aabb;
 use crate::boxes::tree::Tree;
 use hlr_exact::Point;

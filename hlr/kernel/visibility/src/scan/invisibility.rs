@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::active_spans::Count;
+use super::query_points::Count;
 use hlr_exact::parameter::Place;
 
 /// A change of the count along drawn edge number `drawn`.

@@ -6,7 +6,8 @@
 //! 1. `mesh`           snapped points, and the properties of each group
 //! 2. `polygon_table`  which way each triangle faces and whether it is counted
 //! 3. `edge_table`     contour edges with their jumps, drawn edges, and the edges that culling alone decides
-//! 4. `active_spans`   how many polygons lie in front of each end point (the seeds and the checks)
+//! 4. `active_spans`   how many polygons lie in front of each end point (the seeds and the checks; `query_points`: the
+//!    points, by band and column)
 //! 5. `active_edges`   where drawn edges pass behind contour edges
 //! 6. `piercing`       where drawn edges pierce polygons of other groups, or of groups that pass through themselves
 //! 7. `invisibility`   the count along every drawn edge, checked at its far end
@@ -35,6 +36,7 @@ pub mod mesh;
 pub mod own_faces;
 pub mod piercing;
 pub mod polygon_table;
+pub mod query_points;
 pub mod scene;
 mod sheets;
 pub mod single_layer;
