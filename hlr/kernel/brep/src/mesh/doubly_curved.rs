@@ -5,6 +5,7 @@
 //! 3. Insert more points until every triangle keeps the chord error.
 
 use super::border_grid::BorderGrid;
+use super::coarse::{Coarse, Fall};
 use super::delaunay::Delaunay;
 use super::draft::Draft;
 use super::face::{FaceLoops, Fault};
@@ -18,7 +19,7 @@ use super::strips::{Strips, strips};
 use super::sweep;
 use super::triangulation::Triangulation;
 use crate::geometry::surface::Surface;
-use crate::geometry::vector::dot;
+use crate::geometry::vector::{dot, sub};
 use hlr_accuracy::MESH_BESIDE_BORDER;
 use hlr_exact::elementary::hypot;
 
@@ -27,6 +28,10 @@ const ROUNDS: usize = 16;
 /// The same while no more than a few triangles are too coarse: along a narrow fold each needs the point of another.
 const ROUNDS_OF_FEW: usize = 1024;
 const FEW: usize = 256;
+/// Rounds after which the largest error has to be smaller, by this factor, where it is that of one triangle which gets no
+/// point, or a point of the border that is off the surface may be its reason.
+const ROUNDS_STALLED: usize = 32;
+const FALLEN: f64 = 0.99;
 /// Limit on the points inside one face.
 const MOST: usize = 8_000_000;
 /// Distance in the chart that new points keep from a chord, as a share of the chord's length. The smaller one is used
@@ -68,9 +73,20 @@ pub fn triangulate(
     steps.reached(DONE[1]);
     work.evaluate(&outline, &inner);
     let (error, torn, coarse) = work.refine();
-    let Work { corners, net, places, .. } = work;
+    let Work { corners, net, places, stalled, .. } = work;
     let (triangles, bent_chart) = (net.into_triangles(), (!straight).then_some(places));
-    Ok(Ok(Draft { outline, corners, triangles, stand_in, error, torn, coarse, bent_chart, turned: Vec::new() }))
+    Ok(Ok(Draft {
+        outline,
+        corners,
+        triangles,
+        stand_in,
+        error,
+        torn,
+        stalled,
+        coarse,
+        bent_chart,
+        turned: Vec::new(),
+    }))
 }
 
 /// The largest error of some triangles of a mesh, leaving out those of which the border allows no better.
@@ -122,9 +138,14 @@ fn filled(field: &Field, chart: &Outline, steps: &Progress) -> Result<Option<Fil
             return Ok(Some(Filled { inner, net, stand_in: own() }));
         }
     }
+    let swept = sweep::triangulate(chart, steps);
+    // Chords that cross are found without inner points, of which there may be millions.
+    if swept.is_none() && Delaunay::new(chart, &[], steps).is_none() {
+        return Ok(None);
+    }
     let mut inner = lattice::points(field, &BorderGrid::new(chart), MOST, steps).ok_or(Fault::TooFine)?;
     steps.reached(DONE[0]);
-    if let Some(triangles) = sweep::triangulate(chart, steps) {
+    if let Some(triangles) = swept {
         let mut net = Triangulation::new(chart.len(), triangles, |_, _| false);
         let mut places = chart.uv.clone();
         places.reserve(inner.len());
@@ -166,14 +187,9 @@ struct Work<'a> {
     places: Vec<[f64; 2]>,
     deflection: f64,
     net: Triangulation,
+    /// Whether the largest error has not become smaller for many rounds, as the border is off the surface there.
+    stalled: bool,
     steps: &'a Progress<'a>,
-}
-
-/// A triangle that exceeds the deflection. It still exists if the triangle of this number still has these corners.
-struct Coarse {
-    gap: Gap,
-    corners: [u32; 3],
-    number: usize,
 }
 
 impl<'a> Work<'a> {
@@ -186,7 +202,8 @@ impl<'a> Work<'a> {
         steps: &'a Progress,
     ) -> Work<'a> {
         let (corners, bends, spans) = (Vec::new(), Vec::new(), Vec::new());
-        Work { surface, field, chart, corners, bends, spans, places: chart.uv.clone(), deflection, net, steps }
+        let places = chart.uv.clone();
+        Work { surface, field, chart, corners, bends, spans, places, deflection, net, stalled: false, steps }
     }
 
     /// Evaluates the surface at the points of the outline, then at the inner points.
@@ -217,18 +234,28 @@ impl<'a> Work<'a> {
         self.spans.push(self.field.span(uv));
     }
 
-    /// Inserts points where triangles are too coarse, until half of the steps are taken. Returns the largest error that
-    /// remains, whether it remains because the surface is torn, and the chords that meet triangles which are still too
+    /// Inserts points where triangles are too coarse, until half of the steps are taken or it stalls. Returns the largest
+    /// error that remains, whether it remains because the surface is torn, and the chords that meet triangles which are still too
     /// coarse, ascending.
     fn refine(&mut self) -> (f64, bool, Vec<u32>) {
         let (mut worst, mut coarse) = (0.0f64, Vec::new());
         (0..self.net.triangles().len()).for_each(|number| self.judge(number, &mut worst, &mut coarse));
         self.steps.reached(DONE[2]);
+        let mut fall = Fall { least: f64::INFINITY, corners: [0; 3], round: 0 };
         for round in 0..ROUNDS_OF_FEW {
+            let Some(largest) = coarse.iter().max_by(|a, b| Coarse::order(a, b)) else { break };
+            if largest.gap.whole <= FALLEN * fall.least {
+                fall = Fall { least: largest.gap.whole, corners: largest.corners, round };
+            } else if round - fall.round >= ROUNDS_STALLED {
+                self.stalled = self.is_off(largest.corners);
+                if self.stalled || largest.corners == fall.corners {
+                    break;
+                }
+            }
             let known = self.corners.len();
             let late = round >= ROUNDS && coarse.len() > FEW;
             let spent = self.steps.is_half_spent();
-            if coarse.is_empty() || late || known > MOST || spent || !self.divide(&mut coarse) {
+            if late || known > MOST || spent || !self.divide(&mut coarse) {
                 break;
             }
             coarse.retain(|c| self.net.triangles()[c.number] == c.corners);
@@ -246,7 +273,7 @@ impl<'a> Work<'a> {
         chords.sort_unstable();
         chords.dedup();
         let error = coarse.iter().fold(worst, |w, c| w.max(c.gap.whole));
-        let unfinished = !coarse.is_empty() && self.steps.is_half_spent();
+        let unfinished = !coarse.is_empty() && (self.stalled || self.steps.is_half_spent());
         let error = if unfinished { error.max(self.off_planes()) } else { error };
         (error, coarse.iter().any(|c| self.is_torn(c.corners)), chords)
     }
@@ -264,6 +291,15 @@ impl<'a> Work<'a> {
             high - low < TORN * (lines[lines.len() - 1] - lines[0])
         });
         close && (0..3).any(|i| dot(&at[i].normal, &at[(i + 1) % 3].normal) < 0.0)
+    }
+
+    /// Whether a corner of a triangle is a point of the border off the surface, by more than the deflection.
+    fn is_off(&self, t: [u32; 3]) -> bool {
+        let off = |i: usize| {
+            let d = sub(&self.corners[i].point, &self.bends[i][3]);
+            dot(&d, &d) > self.deflection * self.deflection
+        };
+        t.iter().any(|&i| off(i as usize))
     }
 
     /// How far the surface is off the planes of the triangles that seem to be the farthest off, measured: where points
@@ -304,7 +340,7 @@ impl<'a> Work<'a> {
     /// Inserts a point for each coarse triangle, unless a neighbour already got one in this round. Returns whether any
     /// was inserted.
     fn divide(&mut self, coarse: &mut [Coarse]) -> bool {
-        coarse.sort_by(|a, b| b.gap.whole.total_cmp(&a.gap.whole).then(a.corners.cmp(&b.corners)));
+        coarse.sort_by(|a, b| b.order(a));
         let mut touched = vec![false; self.corners.len()];
         let mut any = false;
         for Coarse { gap, corners: t, .. } in coarse {

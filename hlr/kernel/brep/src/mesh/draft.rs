@@ -14,6 +14,8 @@ pub struct Draft {
     pub error: f64,
     /// The surface is torn where the error exceeds the deflection.
     pub torn: bool,
+    /// Whether the error exceeds the deflection because the border is off the surface.
+    pub stalled: bool,
     /// Chords, each by its first point in the outline, that meet a triangle which exceeds the deflection.
     pub coarse: Vec<u32>,
     /// The corners' places in the chart in which the triangles were made, if it is bent.

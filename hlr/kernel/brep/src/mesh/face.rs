@@ -38,8 +38,8 @@ pub struct FaceMesh {
     pub turned: Vec<usize>,
     /// Where the surface is torn, no mesh keeps the deflection: the chord error there. 0 for all other surfaces.
     pub torn: f64,
-    /// Where half of the steps were taken before the mesh kept the deflection: the chord error that it has. 0 for all
-    /// other meshes.
+    /// Where half of the steps were taken before the mesh kept the deflection, or the border is so far off the surface
+    /// that it cannot: the chord error that it has. 0 for all other meshes.
     pub unfinished: f64,
 }
 

@@ -6,6 +6,7 @@
 
 mod border_grid;
 mod check;
+mod coarse;
 mod crossing;
 mod delaunay;
 mod doubly_curved;
@@ -57,7 +58,8 @@ pub fn area([a, b, c]: &[[f64; 2]; 3]) -> f64 {
 /// on the true error.
 ///
 /// Where half of the steps are taken, the mesh is as it is by then: proved to fill the loops, but with the chord error
-/// that it has (`FaceMesh::unfinished`).
+/// that it has (`FaceMesh::unfinished`). So it is where more points make it no better, as a point of the loops is too
+/// far off the surface.
 ///
 /// # Errors
 /// The loops cross or do not close, or the deflection cannot be proved with chords as coarse as the border's.
@@ -97,7 +99,7 @@ pub fn mesh_face(
         return Err(Fault::Degenerate);
     }
     let kept = made.error <= deflection * (1.0 + ROUNDING);
-    let unfinished = !kept && steps.is_half_spent();
+    let unfinished = !kept && (made.stalled || steps.is_half_spent());
     if !kept && !made.torn && !unfinished {
         return Err(Fault::NotCertified(made.error, made.coarse.iter().filter_map(named).collect()));
     }
@@ -156,7 +158,7 @@ fn proved(
 }
 
 /// Replaces the triangles by those of the chart, straightened. Whether that succeeds, and the flipped ones keep the
-/// deflection, or need not as half of the steps are taken.
+/// deflection, or need not as half of the steps are taken or the mesh gets no better.
 fn straightened(
     surface: &Surface,
     made: &mut Draft,
@@ -173,7 +175,7 @@ fn straightened(
     let flipped = made.triangles.iter().zip(&in_chart).filter(|(new, old)| new != old).map(|(new, _)| *new);
     let error = doubly_curved::largest_error(surface, &made.outline, &made.corners, flipped, deflection);
     made.error = made.error.max(error);
-    error <= deflection || steps.is_half_spent()
+    error <= deflection || made.stalled || steps.is_half_spent()
 }
 
 /// The mesh without inner points; the outline where the loops cannot be filled.
@@ -195,6 +197,7 @@ fn flat(surface: &Surface, outline: Outline, deflection: f64, steps: &Progress) 
         stand_in,
         error,
         torn: false,
+        stalled: false,
         coarse,
         bent_chart: None,
         turned: Vec::new(),

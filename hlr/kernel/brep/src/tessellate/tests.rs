@@ -37,3 +37,14 @@ fn a_mesh_with_too_many_points_is_refused_on_any_number_of_threads() {
         assert_eq!(triangles(threads, 0.01, 1_000), triangles(1, 0.01, MOST_POINTS));
     }
 }
+
+#[test]
+fn a_triangle_that_gets_no_point_ends_the_work_soon() {
+    // Damaged: the loop of face 22, on a sphere, touches and crosses itself. A long chord there has the number of another
+    // point, so that its triangle is not known as one of the border.
+    let model = Model::read(include_bytes!("../../tests/touching.bin"), None).unwrap();
+    let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
+    let made = tessellate(&model, 7e-3, 0.5, Limits { steps: 1_000_000, ..LIMITS }, &watch).unwrap();
+    assert!(made.faces.iter().all(|face| face.fault != Some(Fault::TooMuchWork)));
+    assert!(matches!(made.faces[22].fault, Some(Fault::Crossing(_))));
+}

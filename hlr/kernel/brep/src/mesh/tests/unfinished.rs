@@ -2,7 +2,7 @@
 
 use super::curved::wavy;
 use super::shapes::*;
-use crate::mesh::{FaceMesh, Interrupted, Progress, mesh_face};
+use crate::mesh::{FaceMesh, Fault, Interrupted, Progress, mesh_face};
 
 /// The mesh of a wavy patch with a hole, with so many steps.
 fn meshed(steps: &Progress) -> Result<FaceMesh, Interrupted> {
@@ -48,4 +48,28 @@ fn a_face_that_has_to_end_early_gets_no_more_points() {
     let mesh = meshed(&Progress::half_spent(&never, None, 1_000_000)).unwrap();
     assert!(mesh.unfinished > 0.01 && mesh.triangles.len() < whole.triangles.len());
     assert_eq!(meshed(&Progress::half_spent(&never, None, 10_000)), Err(Interrupted::TooMuch));
+}
+
+#[test]
+fn a_point_of_the_border_far_off_its_sphere_ends_the_work_soon() {
+    let sphere = surface(4, &[10.0]);
+    let hole = circle([1.0, 0.2], 0.1, 8, false);
+    let mut face = loops(&sphere, &[frame([0.3, -0.4], [1.8, 0.9], 40, 40), hole]);
+    let far = &mut face.loops[1][3].point;
+    far[2] += 3.0;
+    let steps = Progress::free();
+    let mesh = mesh_face(&sphere, &face, 0.01, 0.5, &steps).unwrap();
+    assert!(mesh.unfinished > 0.01 && (area(&mesh) - enclosed(&face)).abs() < 1e-9, "{}", mesh.unfinished);
+    assert!(steps.count() < 100_000, "{}", steps.count());
+}
+
+#[test]
+fn chords_that_cross_are_found_before_points_are_placed() {
+    let sphere = surface(4, &[10.0]);
+    let mut places = circle([1.0, 0.2], 0.6, 60, true);
+    places.swap(20, 22);
+    let steps = Progress::free();
+    let fault = mesh_face(&sphere, &loops(&sphere, &[places]), 1e-4, 0.5, &steps).unwrap_err();
+    assert!(matches!(fault, Fault::Crossing(_)), "{fault:?}");
+    assert!(steps.count() < 100_000, "{}", steps.count());
 }
