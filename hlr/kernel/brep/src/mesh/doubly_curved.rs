@@ -235,8 +235,8 @@ impl<'a> Work<'a> {
     }
 
     /// Inserts points where triangles are too coarse, until half of the steps are taken or it stalls. Returns the largest
-    /// error that remains, whether it remains because the surface is torn, and the chords that meet triangles which are still too
-    /// coarse, ascending.
+    /// error that remains, whether it remains because the surface is torn, and the chords that meet triangles which are
+    /// still too coarse, ascending.
     fn refine(&mut self) -> (f64, bool, Vec<u32>) {
         let (mut worst, mut coarse) = (0.0f64, Vec::new());
         (0..self.net.triangles().len()).for_each(|number| self.judge(number, &mut worst, &mut coarse));

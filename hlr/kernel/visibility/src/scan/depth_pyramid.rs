@@ -246,8 +246,8 @@ impl DepthPyramid {
         all || (level > 0 && self.cells(a, b).all(|(row, from, to)| self.all_before(row, from, to, depth)))
     }
 
-    /// Step 5: whether the polygons within these contours, all of one group, are hidden. True only where that is certain. nearest:
-    /// depth of the group's nearest corner.
+    /// Step 5: whether the polygons within these contours, all of one group, are hidden. True only where that is certain.
+    /// nearest: depth of the group's nearest corner.
     fn hides_all(&self, mesh: &Mesh, contours: &[Contour], nearest: i32) -> bool {
         let Some(rows) = self.rows(mesh, contours) else { return false };
         let depth = i64::from(nearest) - self.margin;
