@@ -224,10 +224,15 @@ class VisibilityCounts:
     unsound_not_culled: int
     edges: int
 
-class OwnFaces:
-    """Edges whose own faces are seen nearly edge-on: the columns of `hlr.scene.scene.OwnFaces`.
+class Stretches:
+    """Edges whose own faces are seen nearly edge-on, divided into stretches where a face turns over.
 
-    triangle_face (t,): of each triangle its face, numbered through all parts. ValueError where they do not fit.
+    edge (s,) ascending: the edge of each stretch; range (s, 2): the stretch's parameters on the edge's image; line
+    (s,): the edge that runs along it in its true place; beside (s,): the faces of a closed body show it (1), hide it
+    (2), or it is not known (0); dented (s,): the edge's own triangles fold over there, though the faces do not; offsets
+    (s + 1,): where each stretch begins in face (k,), its faces, numbered through all parts, and in off (k,), the edges
+    that run along it, moved off that face; sheet (f,): the same number for faces that join smoothly. ValueError where
+    they do not fit.
     """
 
     def __new__(
@@ -240,9 +245,12 @@ class OwnFaces:
         offsets: Ints,
         face: Ints,
         off: Ints,
-        triangle_face: Ints,
         sheet: Ints,
-    ) -> OwnFaces: ...
+    ) -> Stretches: ...
+    def __len__(self) -> int: ...
+    def renumbered(self, target: Ints) -> Stretches:
+        """The same for edges with new numbers target (e,), -1 for one that is gone or was cut: such an edge, and one
+        of whose places is gone, loses its stretches. ValueError where an edge is none of these."""
 
 class Visibility:
     """Visible and hidden pieces of edges, as they are drawn, sorted by edge and parameter.
@@ -267,7 +275,7 @@ def visibility(
     mesh: Mesh,
     projected: Floats,
     input: VisibilityInput,
-    own: OwnFaces | None = None,
+    own: tuple[Stretches, Ints] | None = None,
     hidden: Bools | None = None,
     *,
     contact: bool = True,
@@ -278,6 +286,7 @@ def visibility(
 ) -> Visibility:
     """Decides which pieces of the edges are visible; projected (n, 3): x right, y up, z away from the viewer.
 
+    own: edges whose own faces are seen nearly edge-on, and the face of each triangle, numbered through all parts.
     hidden (e,): its own body hides it, so it has one hidden piece, whatever its role. contact: surfaces touch within
     the input's tolerance. crossings, piercings, pyramid: the steps to run, as in `hlr.visibility.plan.Plan`.
     arithmetic: exact, f64 or f32. ValueError where shapes do not fit or a coordinate is not finite, KeyboardInterrupt
@@ -406,7 +415,6 @@ class Outlined:
 
     points (n, 3), lift (n, 3): how far points are moved before visibility is decided; edges (e, 2), offsets (e + 1,),
     part, group, kind, curved, hidden and number (e,): the columns of `hlr.image.image.Image` and of its `Silhouettes`.
-    own_*: the columns of its `OwnFaces`, empty where nothing is seen nearly edge-on.
     """
 
     points: Floats
@@ -419,15 +427,9 @@ class Outlined:
     curved: Bools
     hidden: Bools
     number: Ints
-    own_edge: Ints
-    own_range: Floats
-    own_line: Ints
-    own_beside: Bytes
-    own_dented: Bools
-    own_offsets: Ints
-    own_face: Ints
-    own_off: Ints
-    own_sheet: Ints
+
+    def own(self) -> Stretches:
+        """Edges and outlines whose own faces are seen nearly edge-on."""
 
     def walks(self, kind: int, first: int) -> Walks:
         """The outlines as walks of this class; first: how many edges the image had before."""

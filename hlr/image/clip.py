@@ -16,7 +16,7 @@ import numpy as np
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
 from hlr.image.camera import NEAR, Camera, dot
-from hlr.image.image import Image, OwnFaces, Silhouettes
+from hlr.image.image import Image, Silhouettes
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Vector
 from hlr.scene.walks import edge_keys
@@ -220,32 +220,8 @@ def _cut_silhouettes(
         number=moved(old.number, -1),
         curves=old.curves,
         source=old.source,
-        own=_cut_own(old.own, np.where(crossing, -1, target)),
-    )
-
-
-def _cut_own(own: OwnFaces, target: Ints) -> OwnFaces:
-    """The own faces of the edges that were not cut. target (e,): new index of each edge, -1 for one that was cut."""
-    of = np.repeat(np.arange(len(own.edge)), np.diff(own.offsets))
-    lost = (target[own.edge] < 0) | (target[own.line] < 0)
-    lost[of[target[own.off] < 0]] = True
-    # The stretches of one edge are kept together.
-    lost = np.isin(own.edge, own.edge[lost])
-    kept = np.flatnonzero(~lost)
-    kept = kept[np.argsort(target[own.edge[kept]], kind="stable")]
-    count = np.diff(own.offsets)[kept]
-    offsets = np.concatenate([[0], np.cumsum(count)]).astype(np.int32)
-    member = np.arange(offsets[-1]) + np.repeat(own.offsets[kept] - offsets[:-1], count)
-    return replace(
-        own,
-        edge=target[own.edge[kept]],
-        range=own.range[kept],
-        line=target[own.line[kept]],
-        beside=own.beside[kept],
-        dented=own.dented[kept],
-        offsets=offsets,
-        face=own.face[member],
-        off=target[own.off[member]],
+        own=old.own.renumbered(np.where(crossing, np.int32(-1), target)),
+        first=old.first,
     )
 
 

@@ -8,6 +8,7 @@ from operator import attrgetter
 import numpy as np
 import numpy.typing as npt
 
+from hlr import _kernel
 from hlr.common.types import Floats, Ints
 from hlr.image.camera import Camera
 from hlr.image.placement import Placement
@@ -16,41 +17,6 @@ from hlr.source.model import Curves
 
 _geometry = attrgetter(*[each.name for each in fields(Geometry)])
 """What an image takes over from its scene: its first fields, in their order."""
-
-
-@dataclass(frozen=True, slots=True)
-class OwnFaces:
-    """Edges whose own faces are seen nearly edge-on, divided into stretches where a face turns over.
-
-    edge (s,) ascending: the edge of each stretch; range (s, 2): the stretch's parameters on the edge's image
-    line (s,): the edge of the image that runs along the stretch, in its true place; the edge itself where the stretch
-    is all of it, and for outlines, which are moved themselves, where no other body comes near
-    beside (s,) uint8: the faces of a closed body show the stretch (1), hide it (2), or it is not known (0)
-    dented (s,) bool: the edge's own triangles fold over there, though the faces do not
-    offsets (s + 1,): where each stretch begins in face (k,), its faces, numbered through all parts, and in off (k,),
-    the edges of the image that run along the stretch, moved off that face
-    first (p,): number of each part's first face; sheet (f,): the same number for faces that join smoothly
-
-    The edges of line and off have no triangles and are never drawn, except where line is the edge itself.
-    """
-
-    edge: Ints
-    range: Floats
-    line: Ints
-    beside: npt.NDArray[np.uint8]
-    dented: npt.NDArray[np.bool_]
-    offsets: Ints
-    face: Ints
-    off: Ints
-    first: Ints
-    sheet: Ints
-
-    @staticmethod
-    def none() -> OwnFaces:
-        """No own faces, as in a scene without curved faces."""
-        no = np.zeros(0, np.int32)
-        few, never = no.astype(np.uint8), no.astype(bool)
-        return OwnFaces(no, np.zeros((0, 2)), no, few, never, np.zeros(1, np.int32), no, no, no, no)
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,11 +29,13 @@ class Silhouettes:
     curves: of the o outlines; of kind NONE where an outline is straight, or runs along an edge of the model
     source (o,) int32: the index of that edge of the model, else -1
     own: the faces that edges and outlines bound, where these are seen nearly edge-on
+    first (p,): number of each part's first face, as in `own`
     """
 
     lift: Floats
     hidden: npt.NDArray[np.bool_]
-    own: OwnFaces
+    own: _kernel.Stretches
+    first: Ints
     number: Ints
     curves: Curves
     source: Ints

@@ -27,7 +27,7 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.common.types import Ints
-from hlr.image.image import Image, OwnFaces, Silhouettes
+from hlr.image.image import Image, Silhouettes
 from hlr.request.accuracy import OUTLINE_CHORD, OUTLINE_LIFT, OUTLINE_SPARE, OWN_LIFT
 from hlr.request.effect import Facts, Planner
 from hlr.scene.scene import TrueSurfaces
@@ -70,20 +70,6 @@ def _with_outlines(image: Image, surfaces: TrueSurfaces) -> Image:
         image.camera.scaled(1.0),
         (OUTLINE_SPARE * deflection, OUTLINE_LIFT * deflection, OWN_LIFT * deflection),
     )
-    own = OwnFaces.none()
-    if len(shown.own_edge):
-        own = OwnFaces(
-            edge=shown.own_edge,
-            range=shown.own_range,
-            line=shown.own_line,
-            beside=shown.own_beside,
-            dented=shown.own_dented,
-            offsets=shown.own_offsets,
-            face=shown.own_face,
-            off=shown.own_off,
-            first=surfaces.first,
-            sheet=shown.own_sheet,
-        )
     source = found.source
     return replace(
         image,
@@ -97,7 +83,8 @@ def _with_outlines(image: Image, surfaces: TrueSurfaces) -> Image:
         silhouettes=Silhouettes(
             lift=shown.lift,
             hidden=shown.hidden,
-            own=own,
+            own=shown.own(),
+            first=surfaces.first,
             number=shown.number,
             curves=Curves(found.curve_kind, found.curve_range, found.curve_offsets, found.curve_values),
             source=np.where(source >= 0, image.walks.index[source], -1).astype(np.int32),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hlr import _kernel
-from hlr.common.types import Floats
+from hlr.common.types import Floats, Ints
 from hlr.image.image import Image
 from hlr.visibility.plan import Plan
 
@@ -48,11 +48,9 @@ def solve(image: Image, plan: Plan, lifted: Floats, arithmetic: str = "exact") -
     return Segments(found, mesh)
 
 
-def _own_faces(image: Image) -> _kernel.OwnFaces | None:
-    """The faces that edges and outlines bound, as the kernel takes them; None where there are none."""
-    if image.silhouettes is None or len(image.silhouettes.own.edge) == 0:
+def _own_faces(image: Image) -> tuple[_kernel.Stretches, Ints] | None:
+    """Edges whose own faces are seen nearly edge-on, and the face of each triangle; None where there are none."""
+    if image.silhouettes is None or len(image.silhouettes.own) == 0:
         return None
-    own = image.silhouettes.own
-    face = (own.first[image.triangle_part] + image.triangle_face).astype(np.int32)
-    stretches = own.edge, own.range, own.line, own.beside, own.dented
-    return _kernel.OwnFaces(*stretches, own.offsets, own.face, own.off, face, own.sheet)
+    first = image.silhouettes.first
+    return image.silhouettes.own, (first[image.triangle_part] + image.triangle_face).astype(np.int32)

@@ -34,7 +34,7 @@ def pieces(slope, *, own=True, face=0, stretches=((0.0, 1.0),), beside=(UNKNOWN,
         away.append(len(edges) + 1)
         edges += [[n, n + 1], [n + 2, n + 3]]
     k = len(stretches)
-    told = _kernel.OwnFaces(
+    told = _kernel.Stretches(
         np.zeros(k, np.int32),
         np.array(stretches, float),
         np.array(line, np.int32),
@@ -43,7 +43,6 @@ def pieces(slope, *, own=True, face=0, stretches=((0.0, 1.0),), beside=(UNKNOWN,
         np.arange(k + 1, dtype=np.int32),
         np.full(k, face, np.int32),
         np.array(away, np.int32),
-        np.zeros(1, np.int32),
         np.arange(2, dtype=np.int32),
     )
     mesh = _kernel.Mesh(
@@ -65,7 +64,7 @@ def pieces(slope, *, own=True, face=0, stretches=((0.0, 1.0),), beside=(UNKNOWN,
         tight=no,
         drawn=[],
     )
-    found = _kernel.visibility(mesh, np.array(points, float), given, told if own else None)
+    found = _kernel.visibility(mesh, np.array(points, float), given, (told, np.zeros(1, np.int32)) if own else None)
     assert set(found.edge.tolist()) == {0}
     t0, t1, state = found.t0.round(6).tolist(), found.t1.round(6).tolist(), found.state.tolist()
     return list(zip(t0, t1, state, strict=True))

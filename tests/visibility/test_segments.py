@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from hlr import _kernel
-from hlr.image.image import OwnFaces
 from hlr.visibility import segments
 from hlr.visibility.segments import DIVING, HIDDEN, VISIBLE, WITHIN
 from support.visibility.wire import mesh_with_wire
@@ -30,7 +29,7 @@ def solve(monkeypatch):
     )
 
     def call(hidden=None, contact=True):
-        silhouettes = None if hidden is None else SimpleNamespace(hidden=hidden, own=OwnFaces.none())
+        silhouettes = None if hidden is None else SimpleNamespace(hidden=hidden, own=())
         image = SimpleNamespace(silhouettes=silhouettes, mesh=lambda: "mesh")
         plan = SimpleNamespace(visibility_input="input", contact=contact)
         for name in ("crossings", "piercings", "pyramid"):

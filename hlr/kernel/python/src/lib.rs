@@ -30,6 +30,7 @@ mod preview;
 mod raster;
 mod silhouette;
 mod spread;
+mod stretches;
 mod threads;
 mod topology;
 mod true_surfaces;
@@ -55,7 +56,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<groups::Groups>()?;
     m.add_class::<visibility_input::VisibilityInput>()?;
     m.add_class::<visibility_input::VisibilityCounts>()?;
-    m.add_class::<visibility::OwnFaces>()?;
+    m.add_class::<stretches::Stretches>()?;
     m.add_class::<visibility::Visibility>()?;
     m.add_function(wrap_pyfunction!(clash::clashes, m)?)?;
     m.add_function(wrap_pyfunction!(boxes::placed_boxes, m)?)?;

@@ -9,6 +9,7 @@ use super::camera::Camera;
 use super::groups::Groups;
 use super::mesh_input::Mesh;
 use super::silhouette::Outlines;
+use super::stretches::Stretches;
 use super::true_surfaces::TrueSurfaces;
 use super::view::{Flat, Rows, arrays, flat, rows};
 use super::walks::Walks;
@@ -45,16 +46,12 @@ arrays! { Outlined {
     curved: flat Flat<'py, bool> = |o| &o.0.curved;
     hidden: flat Flat<'py, bool> = |o| &o.0.hidden;
     number: flat Flat<'py, i32> = |o| &o.0.number;
-    own_edge: flat Flat<'py, i32> = |o| &o.0.own.edge;
-    own_range: rows Rows<'py, f64> = |o| &o.0.own.range;
-    own_line: flat Flat<'py, i32> = |o| &o.0.own.line;
-    own_beside: flat Flat<'py, u8> = |o| &o.0.own.beside;
-    own_dented: flat Flat<'py, bool> = |o| &o.0.own.dented;
-    own_offsets: flat Flat<'py, i32> = |o| &o.0.own.offsets;
-    own_face: flat Flat<'py, i32> = |o| &o.0.own.face;
-    own_off: flat Flat<'py, i32> = |o| &o.0.own.off;
-    own_sheet: flat Flat<'py, i32> = |o| &o.0.own.sheet;
 }
+
+    /// Edges whose own faces are seen nearly edge-on.
+    fn own(&self) -> Stretches {
+        Stretches(self.0.own.clone())
+    }
 
     /// The outlines as walks of this class; first: how many edges the image had before.
     fn walks(&self, kind: u8, first: i32) -> Walks {

@@ -8,70 +8,16 @@ use pyo3::types::PyDict;
 use super::arrays::{expect_ascending, expect_below, expect_len, flat as slice, rows};
 use super::guard::caught;
 use super::mesh_input::Mesh;
+use super::stretches::Stretches;
 use super::threads::run;
 use super::view::{Flat, arrays, flat};
 use super::visibility_input::VisibilityInput;
 use hlr_linework::lines::runs::Piece;
 use hlr_visibility::scan::drawn::as_drawn;
 use hlr_visibility::scan::invisibility::State;
-use hlr_visibility::scan::own_faces::{OwnFaces as Own, Owned};
+use hlr_visibility::scan::own_faces::OwnFaces;
 use hlr_visibility::scan::scene::{Numbers, Refusal, Scene, solve};
 use hlr_visibility::scan::sweep::{Counters, Seconds, Steps};
-
-/// Edges, or parts of them, whose own faces are seen nearly edge-on.
-#[pyclass(frozen)]
-pub struct OwnFaces(Owned);
-
-#[pymethods]
-impl OwnFaces {
-    #[new]
-    #[allow(clippy::too_many_arguments)] // one argument per column: the stub names them
-    fn new(
-        py: Python<'_>,
-        edge: PyReadonlyArray1<'_, i32>,
-        range: PyReadonlyArray2<'_, f64>,
-        line: PyReadonlyArray1<'_, i32>,
-        beside: PyReadonlyArray1<'_, u8>,
-        dented: PyReadonlyArray1<'_, bool>,
-        offsets: PyReadonlyArray1<'_, i32>,
-        face: PyReadonlyArray1<'_, i32>,
-        off: PyReadonlyArray1<'_, i32>,
-        triangle_face: PyReadonlyArray1<'_, i32>,
-        sheet: PyReadonlyArray1<'_, i32>,
-    ) -> PyResult<OwnFaces> {
-        caught(py, || {
-            let own = Owned {
-                edge: slice(&edge, "edge")?.to_vec(),
-                range: rows::<f64, 2>(&range, "range")?.to_vec(),
-                line: slice(&line, "line")?.to_vec(),
-                beside: slice(&beside, "beside")?.to_vec(),
-                dented: slice(&dented, "dented")?.to_vec(),
-                offsets: slice(&offsets, "offsets")?.to_vec(),
-                face: slice(&face, "face")?.to_vec(),
-                off: slice(&off, "off")?.to_vec(),
-                triangle_face: slice(&triangle_face, "triangle_face")?.to_vec(),
-                sheet: slice(&sheet, "sheet")?.to_vec(),
-            };
-            let stretches = own.edge.len();
-            for (name, found) in [
-                ("range", own.range.len()),
-                ("line", own.line.len()),
-                ("beside", own.beside.len()),
-                ("dented", own.dented.len()),
-            ] {
-                expect_len(name, found, stretches)?;
-            }
-            expect_len("offsets", own.offsets.len(), stretches + 1)?;
-            expect_len("off", own.off.len(), own.face.len())?;
-            expect_below("offsets", own.offsets.iter().copied(), own.face.len() + 1)?;
-            expect_below("face", own.triangle_face.iter().chain(&own.face).copied(), own.sheet.len())?;
-            expect_below("sheet", own.sheet.iter().copied(), own.sheet.len())?;
-            expect_ascending("edge", &own.edge)?;
-            expect_ascending("offsets", &own.offsets)?;
-            Ok(OwnFaces(own))
-        })
-    }
-}
 
 /// Visible and hidden pieces of the edges, as they are drawn.
 #[pyclass(frozen)]
@@ -170,7 +116,7 @@ pub fn visibility<'py>(
     mesh: &Mesh,
     projected: PyReadonlyArray2<'py, f64>,
     input: &VisibilityInput,
-    own: Option<&OwnFaces>,
+    own: Option<(PyRef<'py, Stretches>, PyReadonlyArray1<'py, i32>)>,
     hidden: Option<PyReadonlyArray1<'py, bool>>,
     contact: bool,
     crossings: bool,
@@ -203,22 +149,26 @@ pub fn visibility<'py>(
     expect_len("groups of triangles", scene.triangle_group.len(), all.triangles.len())?;
     expect_len("groups of edges", scene.edge_group.len(), all.edges.len())?;
     expect_len("role", scene.role.len(), all.edges.len())?;
-    if let Some(OwnFaces(own)) = own {
-        expect_len("triangle_face", own.triangle_face.len(), all.triangles.len())?;
-        expect_below("own edge", own.edge.iter().chain(&own.line).chain(&own.off).copied(), all.edges.len())?;
-    }
+    let own_faces = match &own {
+        None => OwnFaces::NONE,
+        Some((stretches, triangle_face)) => {
+            let triangle_face = slice(triangle_face, "triangle_face")?;
+            expect_len("triangle_face", triangle_face.len(), all.triangles.len())?;
+            expect_below("triangle_face", triangle_face.iter().copied(), stretches.0.sheet.len())?;
+            stretches.expect_edges(all.edges.len())?;
+            OwnFaces { stretches: &stretches.0, triangle_face, depth_scale: 1.0 }
+        }
+    };
     let hidden = hidden.as_ref().map_or(Ok(&[][..]), |hidden| slice(hidden, "hidden"))?;
     if !hidden.is_empty() {
         expect_len("hidden", hidden.len(), all.edges.len())?;
     }
-    let own = own.map_or(Own::NONE, |own| own.0.borrowed());
     let steps = Steps { crossings, piercings, pyramid };
-    let outcome = run(py, scene.triangles.len(), |stopped| solve(&scene, own, steps, numbers, stopped))?.map_err(
-        |why| match why {
+    let outcome = run(py, scene.triangles.len(), |stopped| solve(&scene, own_faces, steps, numbers, stopped))?
+        .map_err(|why| match why {
             Refusal::NotFinite => PyValueError::new_err("points hold coordinates that are not finite"),
             Refusal::Stopped => PyKeyboardInterrupt::new_err("stopped"),
-        },
-    )?;
+        })?;
     let on_surface = |edge: u32| scene.groups[scene.edge_group[edge as usize] as usize].tight;
     let (drawn, contacts) = as_drawn(&outcome.pieces, on_surface, hidden);
     let piece = |p: &hlr_visibility::scan::invisibility::Piece| Piece {

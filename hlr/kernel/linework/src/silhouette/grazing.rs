@@ -19,7 +19,7 @@ use super::side::Side;
 use super::{Model, TIE};
 use hlr_accuracy::OUTLINE_FLAT;
 use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, sub, unit};
-use hlr_visibility::scan::own_faces::Beside;
+use hlr_visibility::scan::stretches::Beside;
 
 /// A stretch of the border of a face that is seen nearly edge-on there: the part of an edge between two parameters at
 /// which a face of this edge turns over.

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use crate::lines::View;
 use hlr_brep::geometry::vector::Vector;
 use hlr_mesh::walks::Walks;
+use hlr_visibility::scan::stretches::Stretches;
 
 /// The image without its outlines.
 pub struct Image<'a> {
@@ -59,25 +60,11 @@ pub struct Outlined {
     pub hidden: Vec<bool>,
     /// The outline to which an edge belongs, -1 for none.
     pub number: Vec<i32>,
-    pub own: OwnLines,
+    pub own: Stretches,
     /// Where each outline begins among the edges of all outlines; its part, and its face within the part.
     pub starts: Vec<i32>,
     pub part_of_outline: Vec<i32>,
     pub face_in_part: Vec<i32>,
-}
-
-/// The columns of `hlr_visibility::scan::own_faces::OwnFaces`.
-#[derive(Default)]
-pub struct OwnLines {
-    pub edge: Vec<i32>,
-    pub range: Vec<[f64; 2]>,
-    pub line: Vec<i32>,
-    pub beside: Vec<u8>,
-    pub dented: Vec<bool>,
-    pub offsets: Vec<i32>,
-    pub face: Vec<i32>,
-    pub off: Vec<i32>,
-    pub sheet: Vec<i32>,
 }
 
 /// An edge without triangles.

@@ -10,7 +10,7 @@ use super::own_lines::{self, Stretch};
 use super::trace::Silhouette;
 use crate::lines::View;
 use hlr_brep::geometry::vector::{Vector, scaled, sub};
-use hlr_visibility::scan::own_faces::Beside;
+use hlr_visibility::scan::stretches::Beside;
 
 /// How far points are moved, model units.
 pub struct Lengths {

@@ -3,9 +3,10 @@
 //! The visibility pass compares them polygon by polygon (`hlr_visibility::scan::own_faces`). Edges without triangles,
 //! which are added to the image and never drawn, give it their places.
 
-use super::image::{Classes, Edge, Image, Outlined, OwnLines};
+use super::image::{Classes, Edge, Image, Outlined};
 use hlr_brep::geometry::vector::Vector;
 use hlr_mesh::topology::components;
+use hlr_visibility::scan::stretches::Stretches;
 
 /// A stretch of an edge with one of the faces that the edge bounds.
 pub struct Stretch {
@@ -19,7 +20,7 @@ pub struct Stretch {
     /// How its ends are moved before it is compared with everything else; summed over the faces of a stretch, and used
     /// only where the stretch is not the whole edge, or is `replaced`.
     pub lift: [Vector; 2],
-    /// As in `OwnFaces`.
+    /// As in `Stretches`.
     pub beside: u8,
     pub dented: bool,
     /// The edge itself is moved, and a line of its own stands for it in its place: an outline that others come near.
@@ -32,7 +33,7 @@ pub(super) fn add(out: &mut Outlined, image: &Image, classes: &Classes, all: &[S
         return;
     }
     let same = |a: &Stretch, b: &Stretch| a.edge == b.edge && a.range == b.range;
-    let mut own = OwnLines { offsets: vec![0], sheet: sheets(image, classes), ..OwnLines::default() };
+    let mut own = Stretches { offsets: vec![0], sheet: sheets(image, classes), ..Stretches::NONE };
     // Stretches that are not the whole edge get points of their own.
     for stretch in all.chunk_by(same) {
         let first = &stretch[0];
@@ -100,7 +101,7 @@ fn sheets(image: &Image, classes: &Classes) -> Vec<i32> {
 mod tests {
     use super::*;
     use crate::lines::View;
-    use hlr_visibility::scan::own_faces::Beside;
+    use hlr_visibility::scan::stretches::Beside;
 
     const TANGENT: u8 = 1;
     const OUTLINE: u8 = 2;

@@ -13,7 +13,8 @@
 //! 7. `invisibility`   the count along every drawn edge, checked at its far end
 //! 8. `exact_query`    the slow way, polygon by polygon, for a drawn edge whose check failed
 //! 9. `own_faces`      the slow way for edges whose own faces are seen nearly edge-on: hidden only if these turn over
-//!    (`sheets`: the triangles of faces that go on smoothly; `touching`: outlines at which another body touches)
+//!    (`stretches`: these edges; `sheets`: the triangles of faces that go on smoothly; `touching`: outlines at which
+//!    another body touches)
 //! 10. `drawn`         the pieces that lines are made of
 //!
 //! Two shortcuts, taken where the scene calls for them, with the same result: `single_layer` (a convex body: culling
@@ -40,5 +41,6 @@ pub mod query_points;
 pub mod scene;
 mod sheets;
 pub mod single_layer;
+pub mod stretches;
 pub mod sweep;
 mod touching;

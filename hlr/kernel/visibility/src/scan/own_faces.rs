@@ -27,76 +27,18 @@ use super::merged::merged;
 use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
 use super::sheets::Sheets;
+use super::stretches::{Beside, Stretches};
 use crate::boxes::aabb::Aabb;
 use hlr_exact::Point;
 use hlr_exact::arithmetic::Arithmetic;
 
-/// Whether the faces at an edge of a closed body hide it themselves. A convex edge is visible if any of its faces is
-/// turned toward the viewer, a concave one if all are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-pub enum Beside {
-    /// A face is parallel to the line of sight, or there are not exactly two faces.
-    Unknown = 0,
-    Visible = 1,
-    Hidden = 2,
-}
-
-/// Edges whose own faces are seen nearly edge-on, divided into stretches. Edges ascend; the stretches of an edge cover
-/// all of it.
+/// Stretches, and what they are compared with.
 pub struct OwnFaces<'a> {
-    /// Per stretch: the edge, and its parameters there.
-    pub edge: &'a [i32],
-    pub range: &'a [[f64; 2]],
-    /// The edge that represents the stretch in its true place: the same edge, or one without triangles.
-    pub line: &'a [i32],
-    /// Whether its own faces hide the stretch, if they belong to a closed body: a `Beside`.
-    pub beside: &'a [u8],
-    /// Whether its own triangles fold over there, so that even those seen at a large angle may lie in front of it.
-    pub dented: &'a [bool],
-    /// The faces of stretch s are offsets[s]..offsets[s + 1] of `face` and `off`: the number of the face, and an edge
-    /// without triangles that is the stretch moved off that face.
-    pub offsets: &'a [i32],
-    pub face: &'a [i32],
-    pub off: &'a [i32],
+    pub stretches: &'a Stretches,
+    /// Of each triangle its face, numbered through all parts.
     pub triangle_face: &'a [i32],
-    /// Per face a number that it shares with the faces that continue it smoothly.
-    pub sheet: &'a [i32],
     /// Depth units of the grid per unit in the image.
     pub depth_scale: f64,
-}
-
-/// `OwnFaces` that owns its arrays.
-#[derive(Clone, Debug, Default)]
-pub struct Owned {
-    pub edge: Vec<i32>,
-    pub range: Vec<[f64; 2]>,
-    pub line: Vec<i32>,
-    pub beside: Vec<u8>,
-    pub dented: Vec<bool>,
-    pub offsets: Vec<i32>,
-    pub face: Vec<i32>,
-    pub off: Vec<i32>,
-    pub triangle_face: Vec<i32>,
-    pub sheet: Vec<i32>,
-}
-
-impl Owned {
-    pub fn borrowed(&self) -> OwnFaces<'_> {
-        OwnFaces {
-            edge: &self.edge,
-            range: &self.range,
-            line: &self.line,
-            beside: &self.beside,
-            dented: &self.dented,
-            offsets: &self.offsets,
-            face: &self.face,
-            off: &self.off,
-            triangle_face: &self.triangle_face,
-            sheet: &self.sheet,
-            depth_scale: 1.0,
-        }
-    }
 }
 
 /// |N . v|: triangles seen at more are compared with the edge in its true place. Their deflection does not bring them
@@ -115,29 +57,7 @@ struct Decided {
 }
 
 impl OwnFaces<'_> {
-    pub const NONE: OwnFaces<'static> = OwnFaces {
-        edge: &[],
-        range: &[],
-        line: &[],
-        beside: &[],
-        dented: &[],
-        offsets: &[0],
-        face: &[],
-        off: &[],
-        triangle_face: &[],
-        sheet: &[],
-        depth_scale: 1.0,
-    };
-
-    /// The edges, each as the range of its stretches.
-    pub fn runs(&self) -> Vec<Range<usize>> {
-        let mut from = 0;
-        let run = |run: &[i32]| {
-            from += run.len();
-            from - run.len()..from
-        };
-        self.edge.chunk_by(|a, b| a == b).map(run).collect()
-    }
+    pub const NONE: OwnFaces<'static> = OwnFaces { stretches: &Stretches::NONE, triangle_face: &[], depth_scale: 1.0 };
 
     /// The edges, each as its stretches, whose triangles of their own faces hide them otherwise than the faces do.
     pub fn differing<A: Arithmetic>(
@@ -147,11 +67,11 @@ impl OwnFaces<'_> {
         exact: &ExactQuery,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Vec<Range<usize>> {
-        let edges = self.runs();
+        let edges = self.stretches.runs();
         if edges.is_empty() {
             return Vec::new();
         }
-        let sheets = Sheets::of(self.triangle_face, self.sheet);
+        let sheets = Sheets::of(self.triangle_face, &self.stretches.sheet);
         edges
             .into_par_iter()
             .filter(|run| !stopped() && self.differs::<A>(mesh, table, exact, &sheets, run.clone()))
@@ -170,7 +90,7 @@ impl OwnFaces<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> (Vec<Piece>, u64) {
         let drawn = |run: &Range<usize>| {
-            let edge = self.edge[run.start] as u32;
+            let edge = self.stretches.edge[run.start] as u32;
             pieces.partition_point(|p| p.edge < edge)..pieces.partition_point(|p| p.edge <= edge)
         };
         let differ: Vec<&Range<usize>> = differing.iter().filter(|run| !drawn(run).is_empty()).collect();
@@ -180,7 +100,7 @@ impl OwnFaces<'_> {
         let found: Vec<Decided> = differ
             .par_iter()
             .filter_map(|run| {
-                let edge = self.edge[run.start] as u32;
+                let edge = self.stretches.edge[run.start] as u32;
                 if stopped() {
                     return None;
                 }
@@ -217,7 +137,7 @@ impl OwnFaces<'_> {
         sheets: &Sheets,
         mut stretches: Range<usize>,
     ) -> bool {
-        let edge = self.edge[stretches.start] as usize;
+        let edge = self.stretches.edge[stretches.start] as usize;
         let culled = self.culled(mesh, table, edge);
         let (mut one, mut two) = (Vec::new(), Vec::new());
         stretches.any(|s| {
@@ -246,7 +166,7 @@ impl OwnFaces<'_> {
 
     /// Whether its own faces hide all of a stretch.
     fn hidden(&self, stretch: usize, culled: bool) -> bool {
-        match self.beside[stretch] {
+        match self.stretches.beside[stretch] {
             HIDDEN => true,
             VISIBLE => false,
             _ => culled,
@@ -261,7 +181,7 @@ impl OwnFaces<'_> {
         exact: &ExactQuery,
         stretches: Range<usize>,
     ) -> Option<Vec<Segment>> {
-        let culled = self.culled(mesh, table, self.edge[stretches.start] as usize);
+        let culled = self.culled(mesh, table, self.stretches.edge[stretches.start] as usize);
         let mut out: Vec<Segment> = Vec::new();
         for s in stretches {
             let found = if self.hidden(s, culled) {
@@ -269,7 +189,7 @@ impl OwnFaces<'_> {
             } else {
                 self.asked::<A>(mesh, exact, s)?
             };
-            let [from, to] = self.range[s];
+            let [from, to] = self.stretches.range[s];
             let at = |t: f64| if t == 1.0 { to } else { from + (to - from) * t };
             for segment in &found {
                 let (start, end) = (at(segment.start), at(segment.end));
@@ -283,10 +203,6 @@ impl OwnFaces<'_> {
         (!out.is_empty()).then_some(out)
     }
 
-    fn faces(&self, stretch: usize) -> Range<usize> {
-        self.offsets[stretch] as usize..self.offsets[stretch + 1] as usize
-    }
-
     /// Own polygons that the stretch is compared with when it is moved off their faces, with its ends there.
     fn own_polygons<'m>(
         &self,
@@ -296,10 +212,11 @@ impl OwnFaces<'_> {
         stretch: usize,
     ) -> Vec<(usize, Ends<'m>)> {
         let mut found = Vec::new();
-        let (sheet, reach) = (|k: usize| self.sheet[self.face[k] as usize], self.reach(mesh, stretch));
-        for k in self.faces(stretch) {
+        let (sheet, reach) =
+            (|k: usize| self.stretches.sheet[self.stretches.face[k] as usize], self.reach(mesh, stretch));
+        for k in self.stretches.faces(stretch) {
             // `off` finds a position for polygons of these sheets alone.
-            if (self.faces(stretch).start..k).all(|before| sheet(before) != sheet(k)) {
+            if (self.stretches.faces(stretch).start..k).all(|before| sheet(before) != sheet(k)) {
                 exact.in_front(sheets.tree(exact, sheet(k)), reach, |t| {
                     let off = self.off(mesh, stretch, t);
                     found.extend(off.filter(|_| self.moved(mesh, stretch, t)).map(|ends| (t, ends)));
@@ -314,7 +231,7 @@ impl OwnFaces<'_> {
     /// from polygons seen at a large angle to polygons seen edge-on: one of the two ways may have a gap there, the other
     /// has none.
     fn asked<A: Arithmetic>(&self, mesh: &Mesh, exact: &ExactQuery, stretch: usize) -> Option<Vec<Segment>> {
-        let group = mesh.edge_group[self.edge[stretch] as usize];
+        let group = mesh.edge_group[self.stretches.edge[stretch] as usize];
         // Of each polygon the ends of the stretch, and whether they differ between the two ways.
         let mut found: Vec<(usize, Ends, bool)> = Vec::new();
         exact.in_front(exact.tree(), self.reach(mesh, stretch), |t| match self.off(mesh, stretch, t) {
@@ -339,9 +256,9 @@ impl OwnFaces<'_> {
 
     /// A box around all positions of a stretch.
     pub fn reach(&self, mesh: &Mesh, stretch: usize) -> Aabb {
-        let (a, b) = mesh.ends(self.line[stretch] as usize);
-        self.faces(stretch).fold(Aabb::of(&[a, b]), |reach, k| {
-            let (a, b) = mesh.ends(self.off[k] as usize);
+        let (a, b) = mesh.ends(self.stretches.line[stretch] as usize);
+        self.stretches.faces(stretch).fold(Aabb::of(&[a, b]), |reach, k| {
+            let (a, b) = mesh.ends(self.stretches.off[k] as usize);
             reach.union(&Aabb::of(&[a, b]))
         })
     }
@@ -349,25 +266,29 @@ impl OwnFaces<'_> {
     /// The ends of a stretch in its true place, for a polygon. The end of a stretch is rounded and may lie off the
     /// triangles at its edge; these hide none of it.
     fn plain<'m>(&self, mesh: &'m Mesh, stretch: usize, t: usize) -> Option<Ends<'m>> {
-        let beside = mesh.incident(self.edge[stretch] as usize).contains(&(t as i32));
-        (!beside).then(|| mesh.ends(self.line[stretch] as usize))
+        let beside = mesh.incident(self.stretches.edge[stretch] as usize).contains(&(t as i32));
+        (!beside).then(|| mesh.ends(self.stretches.line[stretch] as usize))
     }
 
     /// The ends of a stretch moved off the face of a polygon; None for polygons of other faces.
     fn off<'m>(&self, mesh: &'m Mesh, stretch: usize, t: usize) -> Option<Ends<'m>> {
         let face = self.triangle_face[t];
-        let sheet = self.sheet[face as usize];
+        let sheet = self.stretches.sheet[face as usize];
         let bounded = |face: i32| {
-            mesh.incident(self.edge[stretch] as usize).iter().any(|&t| self.triangle_face[t as usize] == face)
+            mesh.incident(self.stretches.edge[stretch] as usize).iter().any(|&t| self.triangle_face[t as usize] == face)
         };
-        let mine = self.faces(stretch).find(|&k| self.face[k] == face);
-        let goes_on = || self.faces(stretch).find(|&k| self.sheet[self.face[k] as usize] == sheet && !bounded(face));
-        mine.or_else(goes_on).map(|k| mesh.ends(self.off[k] as usize))
+        let mine = self.stretches.faces(stretch).find(|&k| self.stretches.face[k] == face);
+        let goes_on = || {
+            self.stretches
+                .faces(stretch)
+                .find(|&k| self.stretches.sheet[self.stretches.face[k] as usize] == sheet && !bounded(face))
+        };
+        mine.or_else(goes_on).map(|k| mesh.ends(self.stretches.off[k] as usize))
     }
 
     /// Whether a stretch has to be moved off the face of this polygon of its own.
     fn moved(&self, mesh: &Mesh, stretch: usize, t: usize) -> bool {
-        self.dented[stretch] || self.edge_on(mesh, t)
+        self.stretches.dented[stretch] || self.edge_on(mesh, t)
     }
 
     fn edge_on(&self, mesh: &Mesh, t: usize) -> bool {

@@ -39,16 +39,16 @@ pub fn touching(
         pieces[first..].iter().take_while(|p| p.edge == edge).any(|p| p.segment.state != State::Visible)
     };
     let asked = |run: &Range<usize>| {
-        let edge = own.edge[run.start];
+        let edge = own.stretches.edge[run.start];
         is_near(mesh.edge_group[edge as usize]) && mesh.incident(edge as usize).is_empty() && hidden(edge as u32)
     };
-    let outlines: Vec<Range<usize>> = own.runs().into_iter().filter(asked).collect();
+    let outlines: Vec<Range<usize>> = own.stretches.runs().into_iter().filter(asked).collect();
     if outlines.is_empty() {
         return Vec::new();
     }
     exact.prepare();
     let touches = |run: &Range<usize>| {
-        let group = mesh.edge_group[own.edge[run.start] as usize];
+        let group = mesh.edge_group[own.stretches.edge[run.start] as usize];
         run.clone().any(|stretch| {
             let mut found = false;
             exact.tree().query(&own.reach(mesh, stretch), |t| {
