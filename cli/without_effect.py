@@ -203,7 +203,7 @@ _DRAWS = (
     "total_time_limit",
     "no_cache",
 )
-_RUNS = ("jobs", "total_time_limit", "address", "baseline", "fail_on_change", "prune")
+_RUNS = ("jobs", "total_time_limit", "address", "baseline", "fail_on_change")
 
 ROWS: tuple[Row, ...] = (
     *(Row((name,), partial(_for_sources, of)) for name, of in OF_SOURCES.items()),
@@ -238,7 +238,9 @@ ROWS: tuple[Row, ...] = (
     ),
     Row(("fail_on_change",), _with("watch", "has no use with --watch, which has no exit code"), "batch", refused=True),
     Row(
-        (*_RUNS, "strict", "time_limit", "no_cache"), _with("only_list", "has no effect: --list draws nothing"), "batch"
+        (*_RUNS, "prune", "strict", "time_limit", "no_cache"),
+        _with("only_list", "has no effect: --list draws nothing"),
+        "batch",
     ),
     Row(_RUNS, _with("dry_run", "has no effect: --dry-run draws nothing"), "batch"),
 )

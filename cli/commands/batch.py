@@ -16,22 +16,21 @@ from hlr.tables.projection_methods import PROJECTION_METHODS
 from hlr.tables.writers import WRITERS
 
 from .. import signals
+from ..batch_asked import Asked, Earlier
 from ..batch_progress import Lines, progress
 from ..exits import remark
-from ..parameters import Duration, Vector3, ViewName, Whole
+from ..parameters import Duration, ViewName, Whole
 from ..streams import say, show, show_path
 from ..verb import Verb
 from ..view_options import NO_CACHE
 
 if TYPE_CHECKING:
-    from hlr.batch.baseline import Baseline
-    from hlr.batch.changes import Changes
     from hlr.batch.kept import Kept
     from hlr.batch.keys import Digests
-    from hlr.batch.manifest import Manifest
     from hlr.batch.plan import Plan
     from hlr.batch.pool import Pool
     from hlr.batch.run import Done
+    from hlr.batch.stale import Row
 
 FAILED = 1
 """Exit code where some sources could not be drawn."""
@@ -90,7 +89,7 @@ CHANGED = 3
 @click.option("--strict", is_flag=True, help="Warnings are errors: a source with one counts as failed.")
 @click.option("--init", is_flag=True, help="Write a manifest hlr.toml for the models here, to be changed at will.")
 @click.option("--list", "only_list", is_flag=True, help="Print the files that would be written, and draw nothing.")
-@click.option("--dry-run", is_flag=True, help="Print which sources would be drawn, and which are unchanged.")
+@click.option("--dry-run", is_flag=True, help="Print what would be drawn, and with --prune what would be removed.")
 @click.option("--prune", is_flag=True, help="Remove drawings of earlier runs that the batch draws no more.")
 @click.option("--watch", is_flag=True, help="Stay, and draw again what changes on disk. Ctrl-C ends it.")
 @NO_CACHE
@@ -124,7 +123,7 @@ def batch(
     watch, baseline, fail_on_change, prune = (others.pop(name) for name in names)
     if sum((watch, only_list, dry_run)) > 1:
         raise OptionError("--watch, --list and --dry-run contradict one another: give one of them")
-    asked = _Asked(sources, **others)
+    asked = Asked(sources, **others)
     plan, kept, digests = _prepared(asked)
     if not quiet:
         _tell(plan, asked)
@@ -135,10 +134,9 @@ def batch(
                     show_path(plan.output / file)
         return 0
     if dry_run:
-        for job in plan.jobs:
-            show(f"{'unchanged' if kept.find(job) else 'to draw  '}  {job.title}")
+        _show(plan, kept, Earlier(asked, plan).drawings(plan).stale if prune else ())
         return 0
-    earlier = _Earlier(plan, baseline, fail_on_change, prune)
+    earlier = Earlier(asked, plan, baseline, fail_on_change, prune)
     _make_folder(plan.output)
     with ExitStack() as stack:
         # Beside the drawings there is a display to take down, and workers to end.
@@ -151,13 +149,20 @@ def batch(
     return code
 
 
-def _tell(plan: Plan, asked: _Asked) -> None:
+def _show(plan: Plan, kept: Kept, stale: Sequence[Row]) -> None:
+    """Print what a run would do. stale: drawings that it would remove."""
+    for job in plan.jobs:
+        show(f"{'unchanged' if kept.find(job) else 'to draw  '}  {job.title}")
+    for row in stale:
+        show(f"to remove  {row['file']}")
+
+
+def _tell(plan: Plan, asked: Asked) -> None:
     """Say what is not drawn, or has no effect, though one might expect it."""
-    from hlr.batch.manifest import find
     from hlr.batch.plan import lies_inside, shows_nothing
     from hlr.batch.without_effect import without_effect
 
-    if plan.manifest.file is None and asked.names_sources and (unused := find(Path())) is not None:
+    if (unused := asked.unused_manifest(plan)) is not None:
         remark(f"{unused} is not used, for sources are named: name it, or the folder, to draw what it says")
     if plan.silent:
         remark(shows_nothing(plan.silent))
@@ -165,63 +170,6 @@ def _tell(plan: Plan, asked: _Asked) -> None:
         remark(lies_inside(plan))
     for sentence in without_effect(plan):
         remark(sentence)
-
-
-class _Asked:
-    """What the command line asks for. The manifest is read again where it has changed."""
-
-    def __init__(
-        self,
-        sources: Sequence[str],
-        output: str | None,
-        views: Sequence[str | Vector3],
-        formats: Sequence[str],
-        arrange: str | None,
-        strict: bool,
-        time_limit: float | None,
-        total_time_limit: float | None,
-    ) -> None:
-        self._sources, self._output, self._strict = sources, output, strict
-        self._given = {
-            "views": [view if isinstance(view, str) else list(view) for view in views],
-            "formats": list(formats),
-            "arrange": arrange,
-            "time_limit_s": time_limit,
-            "total_time_limit_s": total_time_limit,
-        }
-
-    @property
-    def names_sources(self) -> bool:
-        """Whether files, folders or patterns are named."""
-        return bool(self._sources)
-
-    def plan(self) -> Plan:
-        """The plan of the batch, as the files are now."""
-        from hlr.batch.plan import plan
-
-        manifest = self._manifest()
-        output = Path(self._output) if self._output is not None else manifest.root / manifest.output
-        return plan(manifest, Path(os.path.abspath(output)), self._strict)
-
-    def _manifest(self) -> Manifest:
-        from hlr.batch.manifest import find, read, without_file
-
-        if "" in self._sources:
-            raise OptionError("the name of a source is empty: name a folder or models, or leave it out")
-        named = [Path(source) for source in self._sources] or [Path()]
-        manifest = next((path for path in named if path.suffix == ".toml"), None)
-        if manifest is not None and len(named) > 1:
-            raise OptionError(
-                f"{manifest} is a manifest, which names its sources itself: give it alone, or leave it out"
-            )
-        if len(named) == 1:
-            one = named[0]
-            file = manifest or find(one)
-            if file is not None:
-                return read(file, **self._given)
-            if one.is_dir():
-                return without_file(one.resolve(), **self._given)
-        return without_file(Path().resolve(), files=[str(path) for path in named], **self._given)
 
 
 class _Pool:
@@ -247,32 +195,7 @@ class _Pool:
         return LocalPool(self._jobs or os.cpu_count() or 1)
 
 
-class _Earlier:
-    """Earlier drawings: those that `--baseline` names, if any, and stale ones.
-
-    fails: whether a difference is a failure; prunes: whether stale drawings are removed
-    """
-
-    def __init__(self, plan: Plan, name: str | None, fails: bool, prunes: bool) -> None:
-        if fails and name is None:
-            raise OptionError("--fail-on-change needs --baseline: name a folder, or git:REVISION")
-        self.name, self.fails, self.prunes = name, fails, prunes
-        self._baseline: Baseline | None = None
-        if name is not None:
-            from hlr.batch.baseline import baseline_of
-
-            self._baseline = baseline_of(name, plan)
-
-    def changes(self, done: Done) -> Changes | None:
-        """What has changed in the drawings of a batch; None: there is no baseline."""
-        if self._baseline is None:
-            return None
-        from hlr.batch.changes import changes
-
-        return changes(done, self._baseline)
-
-
-def _prepared(asked: _Asked) -> tuple[Plan, Kept, Digests]:
+def _prepared(asked: Asked) -> tuple[Plan, Kept, Digests]:
     from hlr.batch.kept import Kept
     from hlr.batch.keys import Digests
     from hlr.cache.folder import folder, most_bytes
@@ -282,23 +205,22 @@ def _prepared(asked: _Asked) -> tuple[Plan, Kept, Digests]:
     return plan, Kept(None if where is None else Store(where, most_bytes(), DRAWINGS), digests), digests
 
 
-def _round(
-    plan: Plan, kept: Kept, digests: Digests, display: Lines, pool: _Pool, earlier: _Earlier
-) -> tuple[int, Done]:
+def _round(plan: Plan, kept: Kept, digests: Digests, display: Lines, pool: _Pool, earlier: Earlier) -> tuple[int, Done]:
     """Draw what has changed, write the report, and say how it went. Returns the exit code, and what was done."""
     from hlr.batch.ci import github
     from hlr.batch.report import write
     from hlr.batch.run import run, tidy
-    from hlr.batch.stale import remove, stale, told
+    from hlr.batch.stale import remove, told, told_of_part
 
     started = time.monotonic()
     done = run(plan, kept, pool, display)
     tidy(plan.output)
     changed = earlier.changes(done)
-    old = stale(plan)
+    found = earlier.drawings(plan, done)
+    old = found.stale
     left = remove(old, plan.output) if earlier.prunes else old
     try:
-        report = write(done, digests, os.environ, changed, left)
+        report = write(done, digests, os.environ, changed, found._replace(stale=left))
     except WriteError as error:
         why = str(error).rstrip(".")
         raise WriteError(f"{why}; what is drawn stays, but there is no new report ({_counts(done)})") from None
@@ -312,6 +234,8 @@ def _round(
             remark(f"{counted(len(old) - len(left), 'stale drawing')} removed")
         if left:
             remark(told(left, plan.output))
+        if earlier.prunes and found.spared:
+            remark(told_of_part(found.spared))
         say(_said(done, time.monotonic() - started))
     fails = earlier.fails and changed is not None and changed.any
     if changed is not None and (fails or not display.quiet):
@@ -334,13 +258,13 @@ def _counts(done: Done) -> str:
 
 
 def _watch(
-    asked: _Asked,
+    asked: Asked,
     done: Done,
     kept: Kept,
     digests: Digests,
     display: Lines,
     pool: _Pool,
-    earlier: _Earlier,
+    earlier: Earlier,
     stop: signals.StopRequest,
 ) -> None:
     """Draw again whatever changes, until a signal ends the command."""

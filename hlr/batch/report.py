@@ -8,7 +8,7 @@ stand under "cost" and "seconds": nothing else differs from run to run.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +17,7 @@ from hlr.batch.job import Job, Outcome
 from hlr.batch.keys import Digests
 from hlr.batch.page import write as page
 from hlr.batch.run import Done
-from hlr.batch.stale import Stale, folder_of
+from hlr.batch.stale import EarlierDrawings, folder_of
 from hlr.drawing import files
 from hlr.tables.documents import head
 
@@ -27,13 +27,16 @@ if TYPE_CHECKING:
 Document = dict[str, Any]
 
 
-def document(done: Done, digests: Digests, changes: Changes | None = None, stale: Sequence[Stale] = ()) -> Document:
+def document(
+    done: Done, digests: Digests, changes: Changes | None = None, earlier: EarlierDrawings | None = None
+) -> Document:
     """The report as `manifest.json` has it.
 
-    changes: since the baseline; None: there is none. stale: drawings of earlier runs that are still there.
+    changes: since the baseline; None: there is none. earlier: drawings of earlier runs that are still there.
     """
     from importlib.metadata import version
 
+    earlier = earlier or EarlierDrawings()
     sources = [_source(job, outcome, digests) for job, outcome in zip(done.plan.jobs, done.outcomes, strict=True)]
     found: Document = {
         **head("hlr-batch"),
@@ -45,7 +48,8 @@ def document(done: Done, digests: Digests, changes: Changes | None = None, stale
             "warned": sum(outcome.warned for outcome in done.outcomes),
         },
         "folder": folder_of(done.plan),
-        "stale": list(stale),
+        "stale": list(earlier.stale),
+        "others": list(earlier.others),
         "sources": sources,
     }
     if changes is not None:
@@ -62,14 +66,14 @@ def write(
     digests: Digests,
     environment: Mapping[str, str],
     changes: Changes | None = None,
-    stale: Sequence[Stale] = (),
+    earlier: EarlierDrawings | None = None,
 ) -> Document:
     """Write the files of the report that have changed. Returns the document.
 
-    environment: variables by which a CI service is told. changes, stale: as of `document`. Raises WriteError where a
+    environment: variables by which a CI service is told. changes, earlier: as of `document`. Raises WriteError where a
     file cannot be written.
     """
-    found = document(done, digests, changes, stale)
+    found = document(done, digests, changes, earlier)
     contents = {}
     for name, writer in _WRITERS.items():
         content = writer(found, environment)

@@ -52,6 +52,12 @@ class Done:
     outcomes: tuple[Outcome, ...]
     drawn: tuple[int, ...]
 
+    @property
+    def failed_files(self) -> tuple[str, ...]:
+        """Names of the files that jobs which failed would have written."""
+        pairs = zip(self.plan.jobs, self.outcomes, strict=True)
+        return tuple(name for job, outcome in pairs if outcome.failure for names in job.files for name in names)
+
 
 def run(plan: Plan, kept: Kept, pool: Callable[[], Pool], listener: Listener) -> Done:
     """Carry out all jobs of a plan. pool: called when there is work for it; whoever made it closes it.

@@ -11,7 +11,7 @@ from batch.models import tetrahedron
 
 from hlr.batch.manifest import manifest_of
 from hlr.batch.plan import Plan, plan
-from hlr.batch.stale import remove, stale, told
+from hlr.batch.stale import earlier, remove, told
 
 
 @pytest.fixture
@@ -75,7 +75,7 @@ def test_only_drawings_inside_the_folder_count(folder):
     for name in ("x.svg", "notes.txt", "a-front.svg", "../y.svg", "../z.svg"):
         (folder / "drawings" / name).write_text("")
     (folder / "drawings/link.svg").symlink_to(folder / "y.svg")
-    rows = stale(asked)
+    rows = earlier(asked).stale
     assert rows == [{"file": "x.svg", "source": "old.off"}]
     assert remove(rows, asked.output) == [] and remove(rows, asked.output) == rows
     assert (folder / "y.svg").exists() and (folder / "drawings/a-front.svg").exists()
@@ -86,7 +86,7 @@ def test_a_broken_report_has_none(folder, text):
     asked = planned(folder, "x.svg")
     (folder / "drawings/x.svg").write_text("")
     (folder / "drawings/manifest.json").write_text(text)
-    assert stale(asked) == []
+    assert earlier(asked).stale == []
 
 
 @pytest.mark.slow
@@ -112,8 +112,8 @@ def test_a_source_that_is_there_keeps_its_drawings_unless_it_is_drawn(folder):
     asked = planned(folder, "old-top.svg")
     (folder / "drawings/old-top.svg").write_text("")
     tetrahedron(folder / "old.off", 1)
-    assert stale(asked) == []
-    assert stale(plan(manifest_of({"views": ["front"]}, folder), asked.output)) == [
+    assert earlier(asked).stale == []
+    assert earlier(plan(manifest_of({"views": ["front"]}, folder), asked.output)).stale == [
         {"file": "old-top.svg", "source": "old.off"}
     ]
 
@@ -124,3 +124,66 @@ def test_of_many_some_are_named(tmp_path):
         f"7 drawings in {tmp_path} stay though the batch draws them no more: 0.svg, 1.svg, 2.svg, 3.svg, 4.svg "
         "and 2 more; --prune removes them"
     )
+
+
+@pytest.mark.slow
+def test_a_part_of_a_batch_removes_no_views_and_forgets_none(folder):
+    """A run of one source, and then one of some views, know of all drawings afterwards."""
+    (folder / "hlr.toml").write_text('views = ["front", "top"]')
+    whole = [sys.executable, "-P", "-m", "hlr", "batch", "-j", "1"]
+
+    def drawn(*more):
+        done = subprocess.run([*whole, *more], check=True, capture_output=True, text=True, timeout=120)
+        return done.stdout + done.stderr
+
+    drawn()
+    drawings = folder / "drawings"
+    assert len(list(drawings.rglob("*.svg"))) == 6
+    said = drawn("a.off", "--view", "top", "--prune")
+    assert "1 drawing of sources drawn here is not removed, though not drawn here (a-front.svg)" in said
+    names = ("a-front.svg", *(f"sub/{name}-{view}.svg" for name in "bc" for view in ("front", "top")))
+    assert tuple(row["file"] for row in report(folder)["others"]) == names and report(folder)["stale"] == []
+    assert "removed" not in drawn("--view", "top", "--prune")
+    assert [row["file"] for row in report(folder)["others"]] == [
+        f"{name}-front.svg" for name in ("a", "sub/b", "sub/c")
+    ]
+    assert len(list(drawings.rglob("*.svg"))) == 6
+    (folder / "sub/c.off").unlink()
+    drawn("a.off")
+    (folder / "hlr.toml").write_text('views = ["top"]')
+    gone = ("a-front.svg", "a-iso.svg", "a-right.svg", "sub/b-front.svg", "sub/c-front.svg", "sub/c-top.svg")
+    assert "".join(f"to remove  {name}\n" for name in gone) in drawn("--dry-run", "--prune")
+    assert "6 stale drawings removed." in drawn("--prune")
+    assert sorted(path.name for path in drawings.rglob("*.svg")) == ["a-top.svg", "b-top.svg"]
+    assert report(folder)["others"] == report(folder)["stale"] == []
+
+
+def test_drawings_of_a_source_that_fails_are_known_to_the_next_run(folder):
+    asked = planned(folder, "a-front.svg", "old-top.svg")
+    for name in ("a-front.svg", "old-top.svg"):
+        (folder / "drawings" / name).write_text("")
+    found = earlier(asked, ["a-front.svg"])
+    assert [row["file"] for row in found.stale] == ["old-top.svg"]
+    assert [row["file"] for row in found.others] == ["a-front.svg"]
+
+
+def test_views_that_the_manifest_names_stay_when_the_command_line_names_others(folder):
+    asked = planned(folder, "a-front.svg", "a-top.svg", "a-left.svg")
+    report = json.loads((asked.output / "manifest.json").read_text())
+    report["sources"][0]["source"] = "a.off"
+    (asked.output / "manifest.json").write_text(json.dumps(report))
+    for view in ("front", "top", "left"):
+        (folder / f"drawings/a-{view}.svg").write_text("")
+    usual = plan(manifest_of({"views": ["front", "top"]}, folder), asked.output)
+    found = earlier(asked, usual=usual)
+    assert [row["file"] for row in found.stale] == ["a-left.svg"]
+    assert [row["file"] for row in found.others] == ["a-top.svg"] and not found.spared
+    found = earlier(asked, is_part=True)
+    assert not found.stale and [row["file"] for row in found.spared] == ["a-left.svg", "a-top.svg"]
+
+
+def test_sources_are_named_from_the_folder_of_the_new_report(folder):
+    asked = planned(folder, "x.svg")
+    (folder / "drawings/x.svg").write_text("")
+    inside = plan(manifest_of({"views": ["front"]}, folder / "sub"), asked.output)
+    assert earlier(inside).stale == [{"file": "x.svg", "source": "../old.off"}]
