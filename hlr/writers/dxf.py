@@ -21,7 +21,7 @@ from hlr.writers.dxf_layers import CONTRAST, FILL, Layers
 from hlr.writers.dxf_text import clean
 from hlr.writers.fill import painted
 from hlr.writers.strokes import MARGIN
-from hlr.writers.svg import accuracies, reached, title
+from hlr.writers.svg import accuracies, reached, stated_view, title
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
@@ -34,6 +34,9 @@ _ENTITIES = "  0\nSECTION\n  2\nENTITIES\n"
 _END = "  0\nENDSEC\n"
 _CHUNK = 1000
 """Entities that are encoded at a time."""
+
+MOST_OF_VIEW = 2000
+"""Bytes of what is said of a view; DXF takes 2049."""
 
 _fixed = Lock()
 
@@ -122,6 +125,8 @@ def _set_header(document: Document, drawing: Drawing, modern: bool, unit: int) -
     told = {"Title": title(drawing), **accuracies(drawing), **{f"reached {k}": v for k, v in reached(drawing).items()}}
     for name, value in told.items():
         document.header.custom_vars.append(name, clean(value))
+    if view := stated_view(drawing):
+        document.header.custom_vars.append("View", clean(view, MOST_OF_VIEW))
 
 
 def _rounded(bounds: Bounds) -> Bounds:

@@ -23,7 +23,7 @@ from hlr.drawing.printed import printed
 from hlr.writers.number import number
 from hlr.writers.page_fonts import PageFonts
 from hlr.writers.strokes import Inked, Strokes, strokes
-from hlr.writers.svg import accuracies, reached, title
+from hlr.writers.svg import accuracies, reached, stated_view, title
 
 _POINTS_PER_MM = 72.0 / 25.4
 # The largest page side that PDF 1.7 allows, in its user units; beyond it the unit itself grows.
@@ -114,6 +114,8 @@ def document(drawing: Drawing, page: Strokes, sheet: Sheet) -> bytes:
     made.info["Creator"] = pydyf.String("hlr")
     told = accuracies(drawing)
     made.info["Accuracy"], made.info["AccuracyAsked"] = map(pydyf.String, told.values())
+    if view := stated_view(drawing):
+        made.info["View"] = pydyf.String(view)
     errors = ", ".join(f"{name} {value}" for name, value in reached(drawing).items())
     if errors:
         made.info["AccuracyReached"] = pydyf.String(errors)

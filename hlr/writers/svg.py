@@ -28,6 +28,7 @@ from hlr.drawing.printed import printed
 from hlr.drawing.scale import ratio
 from hlr.drawing.sheet import SheetView
 from hlr.errors import counted
+from hlr.request.directions import NAMED
 from hlr.writers.number import number
 from hlr.writers.strokes import Inked, Strokes, strokes
 
@@ -167,6 +168,18 @@ def _metadata(drawing: Drawing) -> str:
     measured = f"<reached {errors}/>\n" if errors else ""
     inside = measured + views + "".join(parts)
     return f'<metadata>\n<drawing xmlns="urn:hlr:drawing:1" {attributes}>\n{inside}</drawing>\n</metadata>\n'
+
+
+def stated_view(drawing: Drawing) -> str:
+    """What a PDF or DXF says of a view that its lines do not tell: a section, a window, perspective, any direction.
+
+    "view=front; direction=0 -1 0; ...", as the metadata of an SVG; empty: a whole view that has a name, or a page.
+    """
+    view = drawing.view
+    told = drawing.section is None and drawing.window is None and view.eye is None and view.name in NAMED
+    if told or drawing.sheet is not None:
+        return ""
+    return "; ".join(f"{key}={value}" for key, value in {"view": view.name, **_camera(drawing)}.items())
 
 
 def _camera(drawing: Drawing) -> dict[str, str]:

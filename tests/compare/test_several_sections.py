@@ -29,7 +29,7 @@ def same(found):
     return [row.name for row in both]
 
 
-@pytest.mark.parametrize("ending", ["svg", "json"])
+@pytest.mark.parametrize("ending", ["svg", "json", "pdf", "dxf"])
 @pytest.mark.parametrize(("place", "name"), [(-10, "left"), (15, "left-B")])
 def test_a_section_by_itself_is_found_on_a_page(model, page, tmp_path, place, name, ending):
     hlr.draw(model, view="left", section=place, scale=1).save(tmp_path / f"one.{ending}")
@@ -46,6 +46,45 @@ def test_a_section_by_itself_beside_its_model(model):
     drawn = hlr.draw_views(model, ["left"], hlr.Options(section=[("left", 15), ("left", -10)], scale=1))
     for drawing in drawn:
         assert compare(drawing, model).same
+
+
+@pytest.mark.parametrize("ending", ["pdf", "dxf"])
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"view": "left", "section": 15},
+        {"view": "top", "section": (0, (10, 14)), "hidden": True},
+        {"view": (1, -2, 0.5)},
+        {"view": "front", "window": (5, 2, 40, 25)},
+        {"view": "front", "perspective": hlr.Perspective(fov=50)},
+    ],
+)
+def test_a_view_that_lines_do_not_tell_is_stated_in_all_formats(model, tmp_path, ending, options):
+    file = hlr.draw(model, **options).save(tmp_path / f"one.{ending}")
+    found = compare(file, model)
+    assert found.same and found.view_found, found.summary
+
+
+@pytest.mark.parametrize("ending", ["pdf", "dxf"])
+def test_a_whole_view_with_a_name_is_as_before(model, ending):
+    drawing = hlr.draw(model, view="front")
+    written = drawing.to_pdf() if ending == "pdf" else drawing.to_dxf()
+    assert b"direction=" not in (written if isinstance(written, bytes) else written.encode())
+
+
+def test_a_section_that_does_not_say_its_plane_is_refused(model, tmp_path):
+    old = hlr.draw(model, view="left", section=15, style={"dxf": "R12"}).save(tmp_path / "old.dxf")
+    with pytest.raises(hlr.OptionError, match=r"old\.dxf is a section and does not say where its plane lies"):
+        compare(old, model)
+    new = hlr.draw(model, view="left", section=15).save(tmp_path / "new.dxf")
+    with pytest.raises(hlr.OptionError, match=r"new\.dxf is a section and says itself how it is seen: leave out the"):
+        compare(new, model, view="left")
+
+
+def test_a_view_that_another_program_has_changed_is_found_by_its_lines(model, tmp_path):
+    file = hlr.draw(model, view="front", window=(0, 0, 400, 400)).save(tmp_path / "one.dxf")
+    file.write_bytes(file.read_bytes().replace(b"direction=0 -1 0", b"direction=0 x 0"))
+    assert compare(file, model).same
 
 
 def test_sections_of_two_pages_are_paired_by_their_lines(model, page):

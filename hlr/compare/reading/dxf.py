@@ -18,6 +18,7 @@ from hlr.compare.lines.sketch import About, Sketch, Trait
 from hlr.compare.reading.dashes import CENTRE, HIDDEN, UNKNOWN, VISIBLE
 from hlr.compare.reading.dxf_curves import CURVES
 from hlr.compare.reading.dxf_looks import Looks
+from hlr.compare.reading.stated_view import stated_as_text
 from hlr.errors import SourceError
 from hlr.tables.line_classes import LINE_CLASSES
 from hlr.writers.dxf_entities import APPLICATION
@@ -136,11 +137,15 @@ def _read(document: Document, damaged: int, sketch: Sketch, path: Path) -> About
         visible = VISIBLE if trait.visible == UNKNOWN and told else trait.visible
         sketch.begin(replace(trait, visible=visible, part=part, view=view))
         CURVES[entity.dxftype()](sketch, entity, looks.millimetres)
+    ours = document.appids.has_entry(APPLICATION)
+    stated, scale = stated_as_text(str(document.header.custom_vars.get("View", "")) if ours else "")
     return About(
         parts=() if of_freecad else tuple(names),
         views=tuple(names) if of_freecad else (),
-        foreign=not document.appids.has_entry(APPLICATION) or any(trait.kind < 0 for trait, _, _ in found.lines),
+        foreign=not ours or any(trait.kind < 0 for trait, _, _ in found.lines),
         left_out={word: count for word, count in sorted(found.left_out.items()) if count},
+        scale=scale,
+        stated=stated,
     )
 
 

@@ -22,7 +22,7 @@ from hlr.public.pages import page_names
 from hlr.request.options import Options, View
 from hlr.source.selection import open_selected
 from hlr.tables.entry import listed
-from hlr.tables.line_classes import by_number, optional
+from hlr.tables.line_classes import LINE_CLASSES, by_number, optional
 
 if TYPE_CHECKING:
     from hlr.common.types import Progress
@@ -107,6 +107,8 @@ def side_of_model(
     """
     if other is not None and other.about.views:
         raise OptionError(f"{other.title} is a page of {len(other.about.views)} views, {_no_page(given)}")
+    if other is not None:
+        _check_section(other, view)
     options = _options(other, tolerance_mm, choice)
     if progress is not None:
         progress("source", 0.0)
@@ -125,6 +127,19 @@ def side_of_model(
     shown = drawing.view.name if stated is None else stated.name
     about = replace(side.about, view_found=shown if view is None else None)
     return replace(side, title=f"{name}, {shown}", about=about, behind=Behind(source, drawing, to_suit=True))
+
+
+def _check_section(other: Side, view: View | None) -> None:
+    """Raise OptionError for a section beside which the whole model would be drawn."""
+    if not (other.pieces.kind == LINE_CLASSES["hatch"].number).any():
+        return
+    if other.about.stated is None or other.about.stated.section is None:
+        raise OptionError(
+            f"{other.title} is a section and does not say where its plane lies, as DXF files before R2004 and files of "
+            "earlier versions do not: draw it anew as SVG, JSON, PDF or DXF"
+        )
+    if view is not None:
+        raise OptionError(f"{other.title} is a section and says itself how it is seen: leave out the view")
 
 
 def _no_page(given: Any) -> str:

@@ -11,6 +11,7 @@ from hlr.drawing.drawing import DrawnView
 from hlr.drawing.line import Bounds
 from hlr.drawing.section import Section
 from hlr.request.options import Options, Perspective, SectionPlace, Steps, Vector, View
+from hlr.request.scale import scale_of
 from hlr.source.model import Frame
 
 
@@ -32,6 +33,15 @@ def stated_in(name: str | None, fields: Mapping[str, str]) -> StatedView | None:
         raise ValueError("a direction is zero")
     window = Bounds(*_numbers(fields["window"])) if "window" in fields else None
     return StatedView(name, direction, up, eye, target, section, corners, window)
+
+
+def stated_as_text(text: str) -> tuple[StatedView | None, float | None]:
+    """Of a PDF or DXF of ours, and its scale: "view=front; direction=0 -1 0; ...". None: the file does not say it."""
+    fields = dict(field.split("=", 1) for field in text.split("; ") if "=" in field)
+    try:
+        return stated_in(fields.get("view"), fields), scale_of(fields["scale"]) if "scale" in fields else None
+    except ValueError:  # changed by another program, or cut short
+        return None, None
 
 
 def _vector(text: str) -> Vector:
