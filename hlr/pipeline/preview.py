@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from time import perf_counter
-from typing import Any
+from typing import Any, Unpack
 
 from hlr import _kernel
 from hlr.common.clock import lap
 from hlr.common.colors import parse_color
-from hlr.common.keywords import expect_record
+from hlr.common.keywords import expect_record, shown
 from hlr.common.threads import at_most
 from hlr.common.types import Floats, Progress
 from hlr.drawing.drawing import Drawing, DrawnPart
@@ -33,6 +33,7 @@ from hlr.request.picture_effects import (
     PIXELS_PER_MM,
     PREVIEW,
     PreviewOptions,
+    PreviewWishes,
     checked_preview,
     decide_effects,
     line_options,
@@ -54,8 +55,13 @@ BEHIND = (0, 0, 0, 100)
 """Ink of lines behind glass."""
 
 
+@shown(PreviewOptions)
 def preview_views(
-    source: Any, views: Sequence[View], options: PreviewOptions | None = None, progress: Progress | None = None
+    source: Any,
+    views: Sequence[View],
+    options: PreviewOptions | None = None,
+    progress: Progress | None = None,
+    **wishes: Unpack[PreviewWishes],
 ) -> list[Picture]:
     """One picture per view; the source is read and meshed once.
 
@@ -65,7 +71,7 @@ def preview_views(
     >>> hlr.preview_views("part.step", ["front", "top"], hlr.PreviewOptions(size=(320, 240)))
     [<Picture part.step, front, 320x240 pixels>, <Picture part.step, top, 320x240 pixels>]
     """
-    options = checked_preview(expect_record(PreviewOptions, options, "preview_views"))
+    options = checked_preview(expect_record(PreviewOptions, options, "preview_views", wishes))
     views = checked_views(views, options)
     background = parse_color(options.background)
     if not views:

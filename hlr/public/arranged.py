@@ -5,16 +5,16 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, cast
+from typing import TYPE_CHECKING, Any, Literal, Unpack, cast
 
-from hlr.common.keywords import expect_record
+from hlr.common.keywords import expect_record, shown
 from hlr.common.numbers import is_finite, typed_value
 from hlr.common.threads import at_most
 from hlr.drawing.drawing import Drawing
 from hlr.errors import OptionError, ViewError
 from hlr.pipeline.arranged import Printed, draw_on_one_page
 from hlr.request.check import checked
-from hlr.request.options import Options, View
+from hlr.request.options import Options, View, Wishes
 from hlr.request.style import Style
 from hlr.source.page_template import Rectangle, read_page_template
 from hlr.tables.entry import listed
@@ -32,6 +32,7 @@ _CORNERS = 4
 Method = Literal["first-angle", "third-angle"]
 
 
+@shown(Options)
 def draw_arranged(
     source: Any,
     method: Method = "first-angle",
@@ -42,6 +43,7 @@ def draw_arranged(
     template: str | os.PathLike[str] | None = None,
     texts: Mapping[str, str] | None = None,
     room: Rectangle | None = None,
+    **wishes: Unpack[Wishes],
 ) -> Drawing:
     """Several views on one page, at one scale and in line with one another.
 
@@ -49,12 +51,12 @@ def draw_arranged(
     method    "first-angle" (Europe, Asia) or "third-angle" (America): on which side of the front view the others lie
     views     names or directions; None: front, top, left (first-angle) or right (third-angle), iso, and those that are
               cut. Other views lie in a cell that is free
-    options   as of `hlr.draw`, without fit, window, up, perspective, fill, report and within; None: the defaults. The
-              scale is the largest standard one at which all views fit the page, unless one is given. Sections are said
-              by their views, {"front": True}, or as pairs, [("left", 10), ("left", 40)], where several planes cut a
-              view: the first lies in its place, the others beside it or in other free cells, called left-B and so
-              on. Each has its name, A-A, above it, with letters in the order of `section`, and in a view that sees
-              its plane from the edge a cutting line with arrows and letters
+    options   as of `hlr.draw`, without fit, window, up, perspective, fill, report and within; None: the keywords, or
+              the defaults. The scale is the largest standard one at which all views fit the page, unless one is given.
+              Sections are said by their views, {"front": True}, or as pairs, [("left", 10), ("left", 40)], where
+              several planes cut a view: the first lies in its place, the others beside it or in other free cells,
+              called left-B and so on. Each has its name, A-A, above it, with letters in the order of `section`, and in
+              a view that sees its plane from the edge a cutting line with arrows and letters
     progress  as of `hlr.draw`
     template  an SVG with a frame and a title block, such as those of FreeCAD's TechDraw; it says how large the page is,
               and is printed under the views. None: the symbol of the method in the lower right corner
@@ -76,7 +78,7 @@ def draw_arranged(
     row = PROJECTION_METHODS.get(method) if isinstance(method, str) else None
     if row is None:
         raise OptionError(f"no method is called {method!r}: give {listed(PROJECTION_METHODS, 'or')}")
-    options = checked(expect_record(Options, options, "draw_arranged"))
+    options = checked(expect_record(Options, options, "draw_arranged", wishes))
     check_arranged(options)
     chosen = cast("Sequence[View]", row.usual) if views is None else _listed(views)
     printed = _printed(template, {} if texts is None else texts, room, options)

@@ -21,18 +21,20 @@ if TYPE_CHECKING:
     from hlr.drawing.notes import Noted
 
 
+@shown(Options)
 def draw_views(
     source: Any,
     views: Sequence[View],
     options: Options | None = None,
     progress: Progress | None = None,
     noted: Noted | None = None,
+    **wishes: Unpack[Wishes],
 ) -> list[Drawing]:
     """One drawing per view, or per section of a view that several planes cut; the source is read and meshed once.
 
     source    as of `draw`
     views     names or directions, as of `draw`
-    options   what is asked for; None: the defaults
+    options   what is asked for; None: the keywords, which are its fields, and else the defaults
     progress  as of `draw`
     noted     called with the notes on the size of the views as soon as it is known, before the work begins
 
@@ -43,7 +45,7 @@ def draw_views(
     >>> top
     <Drawing part.step, top, 1:2, 5 visible and 0 hidden lines>
     """
-    options = expect_record(Options, options, "draw_views")
+    options = expect_record(Options, options, "draw_views", wishes)
     if not options.report and options.within is None:
         return drawn_once(source, views, options, progress, noted)  # which checks what is asked for
     started = perf_counter()

@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
-from hlr.common.keywords import expect_record
+from hlr.common.keywords import expect_record, shown
 from hlr.common.threads import at_most
 from hlr.drawing.drawing import Drawing
 from hlr.errors import OptionError, SourceError
@@ -16,7 +16,7 @@ from hlr.pipeline.page.placed_view import PlacedView
 from hlr.pipeline.page.sources import Sources
 from hlr.pipeline.session import refuse_warnings
 from hlr.request.check import checked
-from hlr.request.options import Options
+from hlr.request.options import Options, Wishes
 from hlr.source.file_checks import check_readable
 from hlr.source.freecad.fcstd import opened_document
 from hlr.source.freecad.pages import DocumentPage, pages_of
@@ -39,11 +39,13 @@ def page_names(source: str | os.PathLike[str]) -> list[tuple[str, str]]:
         return [(page.name, page.label) for page in pages_of(document, path)]
 
 
+@shown(Options)
 def draw_pages(
     source: str | os.PathLike[str],
     pages: Sequence[str] | None = None,
     options: Options | None = None,
     progress: Progress | None = None,
+    **wishes: Unpack[Wishes],
 ) -> list[Drawing]:
     """The TechDraw pages of a FreeCAD document: template, views and groups of projections, at their places.
 
@@ -63,7 +65,8 @@ def draw_pages(
     >>> page.save("page.svg").name
     'page.svg'
     """
-    return [drawing for drawing, _ in pages_with_views(source, pages, options, progress)]
+    asked = expect_record(Options, options, "draw_pages", wishes)
+    return [drawing for drawing, _ in pages_with_views(source, pages, asked, progress)]
 
 
 def pages_with_views(

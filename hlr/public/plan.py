@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Unpack
 
-from hlr.common.keywords import expect_record
+from hlr.common.keywords import expect_record, shown
 from hlr.common.threads import at_most
 from hlr.common.types import Progress
 from hlr.drawing.line import Bounds
 from hlr.pipeline.session import Draft, Session
 from hlr.request.check import checked, checked_views
 from hlr.request.effect import Decision
-from hlr.request.options import Options, View
+from hlr.request.options import Options, View, Wishes
 from hlr.window.cut import decide_cut
 
 
@@ -29,8 +29,13 @@ class ViewPlan:
     decisions: tuple[Decision, ...]
 
 
+@shown(Options)
 def plan_views(
-    source: Any, views: Sequence[View], options: Options | None = None, progress: Progress | None = None
+    source: Any,
+    views: Sequence[View],
+    options: Options | None = None,
+    progress: Progress | None = None,
+    **wishes: Unpack[Wishes],
 ) -> list[ViewPlan]:
     """One plan per view, or section of a view, of the drawing that `hlr.draw_views` would make of the same arguments.
 
@@ -44,7 +49,7 @@ def plan_views(
     >>> reasons["outlines"]
     '1 curved face may show one'
     """
-    options = checked(expect_record(Options, options, "plan_views"))
+    options = checked(expect_record(Options, options, "plan_views", wishes))
     views = checked_views(views, options)
     if not views:
         return []

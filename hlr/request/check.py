@@ -171,7 +171,9 @@ def checked_views(views: Sequence[View], options: CameraOptions) -> list[View]:
     for view in found:
         if not isinstance(view, str) and not _is_vector(view, 3, finite=False):
             what = type(view).__name__ if is_dataclass(view) else repr(view)
-            raise ViewError(f"{what} is no view: give a name such as 'iso', or a direction such as (1, -1, 1)")
+            several = isinstance(view, list | tuple) and any(isinstance(each, str) for each in view)
+            more = "; draw_views draws several, and draw_arranged puts them on one page" if several else ""
+            raise ViewError(f"{what} is no view: give a name such as 'iso', or a direction such as (1, -1, 1){more}")
     check_directions(found, options.up, options.perspective)
     return found
 

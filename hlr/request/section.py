@@ -18,7 +18,7 @@ from typing import Any, TypeGuard, cast
 
 from hlr.common.numbers import is_finite
 from hlr.errors import OptionError, ViewError
-from hlr.request.directions import directed, pictorial
+from hlr.request.directions import NAMED, directed, pictorial
 from hlr.request.options import SectionPlace, Steps, Vector, View, ViewName
 from hlr.tables.entry import listed
 
@@ -167,9 +167,11 @@ def _place(place: Any) -> SectionPlace | None:
     with suppress(TypeError, ValueError):
         first, *steps = [] if isinstance(place, str | bytes) else list(place)
         return _stepped(_coordinate(first), [(_coordinate(a), _coordinate(b)) for a, b in steps])
+    named = isinstance(place, str) and place.strip().lower() in NAMED
+    which = f"; {{{place!r}: True}} says that this view is cut" if named else ""
     raise OptionError(
         "section needs True for the middle of the model, a coordinate such as 12.5, a point on its plane such as "
-        f"(0, 12.5, 0), or steps such as (12.5, (30, 40)), in millimetres, not {place!r}"
+        f"(0, 12.5, 0), or steps such as (12.5, (30, 40)), in millimetres, not {place!r}{which}"
     )
 
 

@@ -93,11 +93,51 @@ def test_a_wrong_option_is_refused_with_the_nearest():
         hlr.draw("a.step", xyz=1)
 
 
+@pytest.mark.parametrize("name", ["draw_views", "plan_views", "preview_views"])
+def test_options_may_be_keywords_of_each_function(name):
+    function, of = getattr(hlr, name), hlr.PreviewOptions if name == "preview_views" else hlr.Options
+    (one,), (other,) = function(BOX, ["front"], crease=20.0), function(BOX, ["front"], of(crease=20.0))
+    if name == "draw_views":
+        assert one == other and one.request.options.crease == 20.0
+    with pytest.raises(hlr.OptionError, match=rf"^{name}\(\) has no option 'creese': did you mean crease\?$"):
+        function(BOX, ["front"], creese=20.0)
+    with pytest.raises(
+        hlr.OptionError, match=rf"^{name}\(\) has its options in hlr\.{of.__name__} and crease besides: "
+    ):
+        function(BOX, ["front"], of(), crease=20.0)
+    assert "crease" in inspect.signature(function).parameters
+
+
+def test_a_page_of_several_views_takes_keywords():
+    page = hlr.draw_arranged(BOX, "first-angle", section={"left": True}, hidden=False)
+    assert page == hlr.draw_arranged(BOX, options=hlr.Options(section={"left": True}, hidden=False))
+    with pytest.raises(hlr.OptionError, match=r"^draw_pages\(\) has no option 'acuracy': did you mean accuracy\?$"):
+        hlr.draw_pages("a.FCStd", acuracy=0.1)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"views": ["front"]}, r"draw\(\) has no option 'views': did you mean view\?"),
+        (
+            {"view": ["front", "top"]},
+            r"\['front', 'top'\] is no view: .*; draw_views draws several, and ",
+        ),
+        ({"section": "Front"}, r"not 'Front'; \{'Front': True\} says that this view is cut"),
+    ],
+)
+def test_a_slip_is_told_what_to_write(options, message):
+    with pytest.raises(hlr.HlrError, match=message):
+        hlr.draw(BOX, **options)
+
+
 PROGRAM = """
 import io
 import hlr
 drawing = hlr.draw("a.step", "front", scale=0.5, hidden=False, fit=(10.0, 10.0), up=(0.0, 0.0, 1.0), accuracy=0.01)
 hlr.draw("a.step", (1.0, -1.0, 1.0))
+hlr.draw_arranged("a.step", "first-angle", section={"left": True}, scale="1:2")
+hlr.draw_views("a.step", ["front", "top"], scale=0.5)
 picture = hlr.preview("a.step", size=(8, 8), edges=True)
 drawing.save("a.svg")
 drawing.save(io.BytesIO(), format="pdf")
@@ -116,6 +156,7 @@ REFUSED = {
     'hlr.draw("a.step", hidden="no")': 'incompatible type "str"; expected "bool | None"',
     'hlr.draw("a.step", accuracy="fine")': 'incompatible type "str"; expected "float | None"',
     'hlr.draw("a.step", "frnt")': "expected \\\"Literal['front'",
+    'hlr.draw_views("a.step", ["front"], hiden=False)': 'Unexpected keyword argument "hiden"',
     'hlr.preview("a.step", colour=1)': 'Unexpected keyword argument "colour"',
     'hlr.darw("a.step")': 'Module has no attribute "darw"',
     'drawing.save("a.dwg", "dwg")': "No overload variant",
