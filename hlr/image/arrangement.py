@@ -41,6 +41,12 @@ class Room:
     width: float
     height: float
 
+    def around(self, rooms: Sequence[Room]) -> tuple[float, float, float, float]:
+        """The one of some rooms in which this lies: its lower left and its upper right corner."""
+        x, y = self.x + 0.5 * self.width, self.y + 0.5 * self.height
+        corners = [(room.x, room.y, room.x + room.width, room.y + room.height) for room in rooms]
+        return next((each for each in corners if each[0] <= x <= each[2] and each[1] <= y <= each[3]), corners[0])
+
 
 def inside_margins(paper: Paper) -> Room:
     """All of a page but its margins."""

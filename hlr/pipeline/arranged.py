@@ -142,22 +142,40 @@ class _Views:
     ) -> tuple[Arrangement, int, list[Note]]:
         """The arrangement with more room for marks that are close together, where the scale allows that.
 
+        Room all around is enough; less is, where the marks lie clear of other views and of the margins even so.
         Behind it how far these go out, as of `hlr.pipeline.section.on_page.end_levels`, and what is said about it.
         """
         if not any(each.is_further for each in self.shown):
             return found, 0, []
         from hlr.drawing.section_marks import FARTHER
-        from hlr.pipeline.section.on_page import cutting_lines, end_levels
+        from hlr.pipeline.section.on_page import FARTHEST_ENDS, are_clear, cutting_lines, end_levels
 
-        lines = cutting_lines(_placed(drawings, sizes, found, self), [cell is not None for cell in self.cells])
-        most = max((level for ends in end_levels(lines).values() for level in ends), default=0)
-        for level in range(most, 0, -1):
-            spacing = self.spacing([room for room in rooms if room.paper == found.room.paper], FARTHER * level)
-            with suppress(OptionError):
-                needs = (spread := self.arranged(sizes, spacing, found.scale)).needs(sizes)
-                if needs[0] <= spread.room.width + SLACK and needs[1] <= spread.room.height + SLACK:
+        own = [cell is not None for cell in self.cells]
+        lines = cutting_lines(_placed(drawings, sizes, found, self), own)
+        most = max((level for ends in end_levels(lines, len(lines)).values() for level in ends), default=0)
+        free = [room for room in rooms if room.paper == found.room.paper]
+        for level in range(min(most, FARTHEST_ENDS), 0, -1):
+            for wider in range(level, -1, -1):
+                spread = self._wider(found, sizes, self.spacing(free, FARTHER * wider)) if wider else found
+                if spread is None:
+                    continue
+                placed = _placed(drawings, sizes, spread, self)
+                if wider == level or are_clear(placed, own, self.letters, level, spread.room.around(free)):
                     return spread, level, [] if level == most else [_CLOSE]
         return found, 1, [_CLOSE] if most else []
+
+    def _wider(self, found: Arrangement, sizes: Sequence[Size], spacing: _Spacing) -> Arrangement | None:
+        """The arrangement at its scale with this spacing; None: it has no room."""
+        with suppress(OptionError):
+            needs = (spread := self.arranged(sizes, spacing, found.scale)).needs(sizes)
+            if needs[0] <= spread.room.width + SLACK and needs[1] <= spread.room.height + SLACK:
+                return spread
+        return None
+
+    @property
+    def letters(self) -> dict[str, str]:
+        """Of the sections, by the names of their views, in the order of the marks."""
+        return {each.name: each.letter for each in sorted(self.shown, key=lambda each: each.number) if each.letter}
 
 
 def _on_any(sheets: Sequence[Paper], rectangle: Rectangle) -> list[Room]:
@@ -268,8 +286,8 @@ def _together(
     if options.section is not None:
         from hlr.pipeline.section.on_page import section_marks
 
-        letters = {each.name: each.letter for each in sorted(asked.shown, key=lambda each: each.number) if each.letter}
-        marks, marking = section_marks(placed, [cell is not None for cell in asked.cells], letters, farthest)
+        own = [cell is not None for cell in asked.cells]
+        marks, marking = section_marks(placed, own, asked.letters, farthest)
     return Drawing(
         source=drawings[0].source,
         view=DrawnView(asked.method.name, "orthographic", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),

@@ -150,9 +150,37 @@ def test_only_ends_that_are_close_together_in_one_view_go_farther_out(base, near
         )
 
 
-@pytest.mark.parametrize("places", [(-13, -10, -8, -6), (-10, -8)])
-def test_a_page_without_room_for_close_marks_says_so(places):
-    page = page_of([("left", place) for place in places], page="A5")
+@pytest.mark.parametrize(
+    ("places", "options"),
+    [
+        ((-10, -8), {"page": "A5"}),
+        ((-13, -10, -8), {"page": "A4", "scale": 1}),
+        ((-13, -10, -8, -6), {"page": "A3", "scale": 1}),
+    ],
+)
+def test_marks_have_room_where_they_lie_clear_of_all_else(places, options):
+    page = page_of([("left", place) for place in places], **options)
+    assert page.notes == ()
+    inks = [ink_of(mark) for mark in page.sheet.marks]
+    for one, other in combinations(inks, 2):
+        assert np.hypot(*(one[:, None] - other[None]).T).min() > 0.5
+    points = np.concatenate(inks)
+    assert (points > 10.0).all() and (points < [page.page.width - 10.0, page.page.height - 10.0]).all()
+    for view in page.sheet.views:
+        low, high = extent(page, view.name)
+        if view.name != "front":
+            assert not ((points > low - 1.0) & (points < high + 1.0)).all(axis=1).any(), view.name
+
+
+@pytest.mark.parametrize(
+    ("places", "options"),
+    [
+        ((-13, -10, -8, -6), {"page": "A5"}),
+        (range(-24, -6, 3), {"page": "A0", "scale": 1}),
+    ],
+)
+def test_a_page_without_room_for_close_marks_says_so(places, options):
+    page = page_of([("left", place) for place in places], **options)
     (note,) = page.notes
     assert (note.code, note.is_warning) == ("section-marks-close", False)
     assert note.text.endswith("have no room side by side: give a larger page, or a larger scale.")

@@ -25,8 +25,11 @@ WIDE = 0.75
 CLEAR = 1.0
 """Millimetres between the name of a section and the mark of another."""
 
-FARTHEST_ENDS = 2
+FARTHEST_ENDS = 4
 """Times `FARTHER`: how far out cutting lines end that are close together, where the page has room for that."""
+
+NAME = 3
+"""Letters of the name of a section, A-A."""
 
 SAME_PLACE = 1e-6
 """Millimetres: arrows that end so close to the next line do not lie over it."""
@@ -72,6 +75,38 @@ def section_marks(
             notes.append(Note("section-not-marked", text))
     ink = np.concatenate([np.zeros((0, 2)), *(_ink(mark) for mark in marks.values())])
     return {name: replace(mark, name=_clear_of(ink, mark)) for name, mark in marks.items()}, notes
+
+
+def are_clear(
+    views: Sequence[OnPage],
+    own: Sequence[bool],
+    letters: Mapping[str, str],
+    farthest: int,
+    room: tuple[float, float, float, float],
+) -> bool:
+    """Whether the marks of all sections lie in a room, and not over the views that they do not cut, nor over names.
+
+    room: its lower left and its upper right corner; all else is as of `section_marks`
+    """
+    marks, _ = section_marks(views, own, letters, farthest)
+    bases = {name: line.base for name, line in cutting_lines(views, own).items()}
+    half = np.array([0.5 * WIDE * LETTER * NAME + CLEAR, 0.5 * LETTER + CLEAR])
+    names = [(np.array(mark.name) - half, np.array(mark.name) + half) for mark in marks.values()]
+    for name, base in bases.items():
+        ink = _ink(marks[name])
+        if (ink < room[:2]).any() or (ink > room[2:]).any():
+            return False
+        boxes = [_box(view) for view in views if view.name != base]
+        if any(((low < ink) & (ink < high)).all(axis=1).any() for low, high in [*boxes, *names]):
+            return False
+    return True
+
+
+def _box(view: OnPage) -> tuple[Floats, Floats]:
+    """The lower left and the upper right corner of a view and what is kept clear around it."""
+    bounds = bounds_of(view.drawing.lines)
+    low, high = np.array([bounds.x0, bounds.y0]), np.array([bounds.x1, bounds.y1])
+    return low + view.shift - CLEAR, high + view.shift + CLEAR
 
 
 @dataclass(frozen=True, slots=True)
