@@ -211,6 +211,7 @@ def _round(plan: Plan, kept: Kept, digests: Digests, display: Lines, pool: _Pool
     from hlr.batch.report import write
     from hlr.batch.run import run, tidy
     from hlr.batch.stale import remove, told, told_of_part
+    from hlr.batch.unused_patterns import unused_patterns
 
     started = time.monotonic()
     done = run(plan, kept, pool, display)
@@ -230,6 +231,8 @@ def _round(plan: Plan, kept: Kept, digests: Digests, display: Lines, pool: _Pool
     if not display.quiet:
         if kept.not_kept:
             remark(f"the next run draws again what it should find in the cache: it cannot be kept ({kept.not_kept})")
+        for sentence in unused_patterns(done):
+            remark(sentence)
         if len(left) < len(old):
             remark(f"{counted(len(old) - len(left), 'stale drawing')} removed")
         if left:

@@ -11,9 +11,10 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, cast
 
-from hlr.batch.job import Job, Outcome, failed
+from hlr.batch.job import OF_PARTS, Job, Outcome, failed
 from hlr.batch.pulled_in import references
 from hlr.batch.request import options_of
+from hlr.batch.unused_patterns import named
 from hlr.common.process import debugging
 from hlr.errors import HlrError, StrictError
 
@@ -22,7 +23,8 @@ if TYPE_CHECKING:
     from hlr.drawing.drawing import Drawing
     from hlr.drawing.notes import Note
     from hlr.public.arranged import Method
-    from hlr.request.options import View
+    from hlr.request.options import Options, View
+    from hlr.source.model import Source
 
 
 def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
@@ -67,10 +69,17 @@ def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
 def _drawn(job: Job, progress: Progress | None) -> Outcome:
     from hlr.drawing.saving import render
     from hlr.pipeline.session import refuse_warnings
+    from hlr.source.selection import open_whole
     from hlr.writers.left_out import left_out
 
-    source, views = str(Path(job.root, job.source)), cast("list[View]", list(job.views))
-    options = options_of(job.options, job.root)
+    views = cast("list[View]", list(job.views))
+    source: Any
+    options, source = options_of(job.options, job.root), str(Path(job.root, job.source))
+    missed: list[Note] = []
+    if job.is_shared and any(getattr(options, name) for name in OF_PARTS):
+        opened = open_whole(source, options)
+        options, missed = for_its_parts(options, opened)
+        source = opened
     if job.arrange:
         from hlr.public.arranged import draw_arranged
 
@@ -82,7 +91,10 @@ def _drawn(job: Job, progress: Progress | None) -> Outcome:
         from hlr.public.draw import draw_views
 
         drawings = draw_views(source, views, options, progress)
-    more = [[note for format in job.formats for note in left_out(each, format, format.upper())] for each in drawings]
+    more = [
+        [*missed, *(note for format in job.formats for note in left_out(each, format, format.upper()))]
+        for each in drawings
+    ]
     if options.strict:
         refuse_warnings([note for notes in more for note in notes])
     started = perf_counter()
@@ -90,6 +102,25 @@ def _drawn(job: Job, progress: Progress | None) -> Outcome:
     writing = (perf_counter() - started) / len(drawings)
     facts = (_facts(drawing, notes, writing) for drawing, notes in zip(drawings, more, strict=True))
     return Outcome(None, tuple(facts), contents)
+
+
+def for_its_parts(options: Options, source: Source) -> tuple[Options, list[Note]]:
+    """Options that are for several sources, without the patterns that name no part of this one, and notes on these.
+
+    A source of which `only` names nothing keeps it, and is refused.
+    """
+    from hlr.drawing.notes import Note
+    from hlr.source.selection import unmatched
+
+    notes = []
+    for name in OF_PARTS:
+        patterns: Sequence[str] = getattr(options, name)
+        missed = unmatched(patterns, source)
+        if missed and not (name == "only" and len(missed) == len(patterns)):
+            kept: dict[str, Any] = {name: tuple(each for each in patterns if each not in missed)}
+            options = replace(options, **kept)
+            notes += [Note("pattern-unused", f"{named(name, each)}: other sources share it.") for each in missed]
+    return options, notes
 
 
 def _facts(drawing: Drawing, more: Sequence[Note], writing: float) -> dict[str, Any]:

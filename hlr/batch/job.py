@@ -6,6 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+OF_PARTS = ("only", "hide", "uncut")
+"""Options that are patterns of parts."""
+
 View = str | tuple[float, ...]
 
 
@@ -24,6 +27,7 @@ class Job:
     rule             where the manifest asks for it: keys that lead to its table
     arrange          the method by which all views are arranged on one page; empty: each view is a drawing
     printed          of such a page: template (its path, seen from the root), texts and room, those that are given
+    is_shared        whether its options are for other sources as well, which may have parts that this one has not
     """
 
     root: str
@@ -38,6 +42,7 @@ class Job:
     rule: tuple[str | int, ...] = ()
     arrange: str = ""
     printed: Mapping[str, Any] = field(default_factory=dict)
+    is_shared: bool = False
 
     @property
     def title(self) -> str:

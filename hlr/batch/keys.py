@@ -12,7 +12,7 @@ from contextlib import suppress
 from hashlib import blake2b, file_digest
 from pathlib import Path
 
-from hlr.batch.job import Job
+from hlr.batch.job import OF_PARTS, Job
 from hlr.batch.request import files_of
 from hlr.batch.versions import libraries, program
 from hlr.common.packages import bindings, installed
@@ -59,6 +59,7 @@ def key_of(job: Job, digests: Digests) -> str | None:
         "packages": _packages(job),
         "source": [job.source, source],
         "views": job.views,
+        **({"shared": True} if job.is_shared and any(name in job.options for name in OF_PARTS) else {}),
         "arrange": [job.arrange, job.printed],
         "formats": job.formats,
         # Sections have their letters in the order of the manifest.

@@ -69,7 +69,8 @@ def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
         for path in sources:
             options = {**rule.options, **({"strict": True} if strict else {})}
             alone = stems[_stem(path)] == 1
-            jobs.extend(replace(job, depends=depends) for job in _jobs(manifest, rule, path, options, alone, printed))
+            found = _jobs(manifest, rule, path, options, alone, printed)
+            jobs.extend(replace(job, depends=depends, is_shared=len(sources) > 1) for job in found)
     _check_names(manifest, jobs, output)
     drawn = {os.path.join(job.root, job.source) for job in jobs}
     unshown = tuple(path for path in dict.fromkeys(silent) if str(path) not in drawn)

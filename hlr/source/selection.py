@@ -51,7 +51,7 @@ def open_selected(thing: Any, options: PartSelection) -> Source:
         SourceError: it cannot be opened.
         OptionError: a pattern matches no part, or no part is left.
     """
-    source = open_source(thing, options.var, options.annotations, options.parameters, options.hidden_objects)
+    source = open_whole(thing, options)
     only, hide = tuple(options.only), tuple(options.hide)
     if not (only or hide) or getattr(source, "choice", None) == (only, hide):
         return source
@@ -62,6 +62,11 @@ def open_selected(thing: Any, options: PartSelection) -> Source:
         fewer = "do not hide its only part" if len(names) == 1 else f"hide fewer of its {len(names)} parts"
         raise OptionError(f"Of {source.name} no part would be left: {fewer}.")
     return source.of_parts(kept, (only, hide))
+
+
+def open_whole(thing: Any, options: PartSelection) -> Source:
+    """Open anything that `open_source` opens, with all parts. Raises SourceError where it cannot be opened."""
+    return open_source(thing, options.var, options.annotations, options.parameters, options.hidden_objects)
 
 
 @runtime_checkable
@@ -87,6 +92,17 @@ def matching(patterns: Sequence[str], source: Source, option: str) -> set[str]:
             raise OptionError(f'{option} "{pattern}" matches no part: {suggestion(pattern, known)}.')
         found |= some
     return found
+
+
+def unmatched(patterns: Sequence[str], source: Source) -> list[str]:
+    """Those of the patterns that `matching` would refuse."""
+    missed = []
+    for pattern in dict.fromkeys(patterns):
+        try:
+            matching([pattern], source, "")
+        except OptionError:
+            missed.append(pattern)
+    return missed
 
 
 def suggestion(pattern: str, names: Sequence[str]) -> str:
