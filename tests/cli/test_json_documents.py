@@ -163,6 +163,8 @@ def of_batch(hlr_real, monkeypatch):
     Path("new.off").unlink()
     assert hlr_real(*asked).code == 1
     yield read("drawings/manifest.json")
+    assert hlr_real(*asked, "same.off", "-o", "drawings").code == 0
+    yield read("drawings/manifest.json")
 
 
 UNSEEN = [("batches", "folder", "null"), ("batches", "sources[].sha256", "null")]
