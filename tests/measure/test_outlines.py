@@ -14,7 +14,7 @@ import pytest
 import hlr
 from hlr.lab.measure.outlines import outline_errors
 from hlr.lab.measure.paper import Paper
-from hlr.lab.measure.written import Written, written
+from hlr.lab.measure.written import Written, in_model, written
 from hlr.source import open_source
 from support.at_size import AT_SIZE
 
@@ -76,3 +76,19 @@ def test_where_the_surface_is_nearly_edge_on_over_a_long_way_the_search_goes_on(
     for of in (drawing, beside):
         off, _ = outline_errors(model, of, written(of), Paper.of(of), 10**6)
         assert len(off) > 3 and off.max() < 1e-3
+
+
+@pytest.mark.parametrize("eye", [None, (20.0, 6.0, 75.0)])
+def test_of_a_long_line_toward_the_eye_the_point_behind_each_point_on_paper_is_measured(eye):
+    """The middle of a line on paper is not its middle in space: in perspective, here, they are 10 mm apart."""
+    rod = open_source(cq.Workplane().circle(5).extrude(60))
+    camera = None if eye is None else hlr.Perspective(eye=eye, target=(0.0, 0.0, 30.0))
+    drawing = hlr.draw(rod, (20, 6, 45), accuracy=0.005, perspective=camera, **AT_SIZE)
+    form, paper = written(drawing), Paper.of(drawing)
+    points, line = form.middles(0.5)
+    straight = np.array([len(each.points) == 2 for each in drawing.lines])[line]
+    assert straight.sum() > 50
+    behind = paper(in_model(drawing, points[straight], line[straight]))
+    assert behind == pytest.approx(points[straight], abs=1e-3)
+    off, _ = outline_errors(rod, drawing, form, paper, 10**6)
+    assert len(off) and off.max() < 0.005

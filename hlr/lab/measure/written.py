@@ -100,8 +100,15 @@ def in_model(drawing: Drawing, points: Floats, line: Index) -> Floats:
     size = ((b - a) ** 2).sum(axis=1)
     with np.errstate(all="ignore"):
         s = np.where(size > 0.0, ((points - a) * (b - a)).sum(axis=1) / size, 0.0)
-    s = np.clip(s, 0.0, 1.0)[:, None]
-    return np.asarray(end[found, 0] * (1.0 - s) + end[found, 1] * s)
+    s = np.clip(s, 0.0, 1.0)
+    u, v = end[found, 0], end[found, 1]
+    if drawing.view.eye is not None:
+        # The middle on paper is not the middle in space: nearer lengths look longer.
+        eye, back = np.array(drawing.view.eye), np.array(drawing.view.direction)
+        near, far = s * ((u - eye) @ back), (1.0 - s) * ((v - eye) @ back)
+        with np.errstate(all="ignore"):
+            s = np.where(near + far < 0.0, near / (near + far), s)
+    return np.asarray(u * (1.0 - s[:, None]) + v * s[:, None])
 
 
 def _bezier(control: Floats, t: Floats) -> Floats:
