@@ -85,6 +85,7 @@ pub fn side<'a>(model: &'a Model<'a>, values: &[f64], e: usize, t: i32) -> Optio
         if pole[k] { face.f_toward(ends[k], ends[1 - k]).unwrap_or(0.0) } else { values[nodes[[i, j][k]] as usize] }
     });
     let half = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
-    let normal = face.normal(half)?;
+    // The surface may have no normal just there.
+    let normal = face.normal(half).or_else(|| ends.iter().find_map(|&end| face.normal_toward(half, end)))?;
     Some(Side { triangle: t, number, corners: [a, b], uv: ends, f, face: Some(face), normal })
 }

@@ -220,3 +220,40 @@ fn a_valley_is_filled_as_a_whole_or_not_at_all() {
     assert_eq!(filled("ssd", true), "---");
     assert_eq!(filled("sss", true), "+++");
 }
+
+/// The saddle z = y (0.2 - x / 10), written so that dv vanishes in the middle of its border y = 0. The border is three
+/// chords there, the middle of one of which has no normal.
+fn saddle() -> Body {
+    let (still, away) = ([1.0, -1.0 / 3.0, -1.0 / 3.0, 1.0], [1.0, 1.0 / 3.0, -1.0 / 3.0, -1.0]);
+    let along = [-10.0, -10.0 / 3.0, 10.0 / 3.0, 10.0];
+    let mut record = vec![3.0, 2.0, 4.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+    record.extend([0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
+    for k in 0..4 {
+        let cubed = if k % 2 == 0 { 1.0 } else { -1.0 };
+        record.extend([along[k], 0.0, 0.0, 1.0]);
+        record.extend([along[k], still[k], cubed + 0.2 * still[k], 1.0]);
+        record.extend([along[k], 10.0, 10.0 * (away[k] + 0.2), 1.0]);
+    }
+    let surface = Surface::read(8, &record).expect("a surface");
+    let (across, up) = ([0.0, 0.25, 0.75, 1.0], [0.0, 0.3, 0.6, 1.0]);
+    let uv: Vec<[f64; 2]> = up.iter().flat_map(|&v| across.map(|u| [u, v])).collect();
+    let cells = (0..3).flat_map(|row| (0..3).map(move |k| 4 * row + k));
+    let triangles: Vec<[i32; 3]> = cells.flat_map(|k| [[k, k + 1, k + 5], [k, k + 5, k + 4]]).collect();
+    let points = uv.iter().map(|&uv| surface.d1(uv).0).collect();
+    Body { points, corner: triangles.clone(), triangles, uv, surface }
+}
+
+#[test]
+fn an_outline_reaches_a_border_although_the_middle_of_its_chord_has_no_normal() {
+    let body = saddle();
+    assert!(body.surface.normal([0.5, 0.0]).is_none() && body.surface.normal([0.5, 0.1]).is_some());
+    for p in &body.points {
+        assert!((p[2] - p[1] * (0.2 - p[0] / 10.0)).abs() < 1e-12, "{p:?}");
+    }
+    let found = body.traced(false, false).expect("an answer").silhouettes;
+    // The slope toward y vanishes at x = 2.
+    let points: Vec<&Vector> = found.iter().flat_map(|line| &line.points).collect();
+    assert!(points.iter().all(|p| (p[0] - 2.0).abs() < 1e-6), "{points:?}");
+    let reach = |y: f64| points.iter().any(|p| (p[1] - y).abs() < 1e-6);
+    assert!(reach(0.0) && reach(10.0), "{points:?}");
+}
