@@ -56,18 +56,20 @@ class TrueEdges:
             truth = _evaluated(shape, of.transform, record)
             if record[0] == NONE or len(truth) == 0:
                 record = records[-1] = UNKNOWN
-                flat, ends = paper(truth), np.full((max(len(truth) - 1, 0), 2), np.nan)
+                points, ends = truth, np.full((max(len(truth) - 1, 0), 2), np.nan)
             else:
                 curve = pack_curves([record])
                 here = evaluate_curves(curve, np.zeros(CHECKS, np.int32), np.linspace(*record[1:3], CHECKS))[:, 0]
-                self._off[i] = float((np.linalg.norm(here - truth, axis=1) * paper.magnified(here)).max(initial=0.0))
-                flat = paper(evaluate_curves(curve, np.zeros(len(places), np.int32), places)[:, 0])
-                finer = _finer(flat, MEASURED_EDGE_CHORD * drawing.accuracy.used)
+                off = np.linalg.norm(here - truth, axis=1) * paper.magnified(here)
+                self._off[i] = float(np.fmax.reduce(off, initial=0.0))
+                points = evaluate_curves(curve, np.zeros(len(places), np.int32), places)[:, 0]
+                finer = _finer(paper(points), MEASURED_EDGE_CHORD * drawing.accuracy.used)
                 if finer > 1:
                     places = np.linspace(places[0], places[-1], (len(places) - 1) * finer + 1)
-                    flat = paper(evaluate_curves(curve, np.zeros(len(places), np.int32), places)[:, 0])
+                    points = evaluate_curves(curve, np.zeros(len(places), np.int32), places)[:, 0]
                 ends = np.stack([places[:-1], places[1:]], axis=1)
-            segments = np.concatenate([flat[:-1], flat[1:]], axis=1)
+            segments, shares = paper.chords(points[:-1], points[1:])
+            ends = np.where(np.isfinite(shares), ends[:, :1] + shares * (ends[:, 1:] - ends[:, :1]), ends)
             # Points behind the eye have no image on paper.
             good = np.isfinite(segments).all(axis=1)
             chords.append(segments[good])

@@ -30,7 +30,8 @@ def intersection_errors(drawing: Drawing, drawn: Written, caster: Caster, paper:
     triangles = np.ascontiguousarray(caster.triangles[chosen])
     found = _kernel.clashes(caster.points, triangles, part, itself)
     both = np.sort(parts[part[found["triangles"]]], axis=1)
-    ends = paper(found["points"][found["edges"].ravel()]).reshape(-1, 4)
+    ends, _ = paper.chords(*found["points"][found["edges"].T])
+    both, ends = both[np.isfinite(ends).all(axis=1)], ends[np.isfinite(ends).all(axis=1)]
     mine = np.flatnonzero(key[drawn.line] >= 0)
     line = drawn.line[mine]
     off = np.full(len(mine), np.inf)

@@ -45,7 +45,7 @@ def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper) -> 
     folds = (some > 0) & (some < count)
     folds[faced] |= np.logical_or.reduceat(edge_on[scene.incident], first[faced])
     edge = np.flatnonzero(folds | (scene.edge_kind != INTERIOR))
-    ends = paper(scene.points[scene.edges[edge].ravel()]).reshape(-1, 4)
+    ends, _ = paper.chords(*scene.points[scene.edges[edge].T])
     good = np.isfinite(ends).all(axis=1)
     part = np.array([x.part for x in drawing.lines], np.int32)
     line = drawn.line[mine]
