@@ -60,11 +60,14 @@ class DrawnPart(ByValue):
     name       unique in the drawing; on a page of several views that of the view stands before it: view/name
     color      sRGB, 0 to 1; None: the source gives none
     transform  (4, 4) matrix of its placement, row major, model units
+    above      names of the assemblies that it is in, and of its place in them, where its own name does not say them:
+               patterns of parts stand for these as well
     """
 
     name: str
     color: tuple[float, float, float] | None
     transform: Points
+    above: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<DrawnPart {self.name!r}>"

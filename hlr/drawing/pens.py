@@ -134,7 +134,8 @@ def _alike(drawing: Drawing, special: Sequence[LineRule]) -> dict[tuple[LineRule
         return {(): range(len(drawing.parts))}
     alike: dict[tuple[LineRule, ...], list[int]] = {}
     for index, part in enumerate(drawing.parts):
-        own = tuple(rule for rule in special if matches(_called(part, drawing), str(rule.parts)))
+        names = (_called(part, drawing), *part.above)
+        own = tuple(rule for rule in special if any(matches(name, str(rule.parts)) for name in names))
         color = part_color(part) if style.part_colors == "lines" else None
         if color is not None:
             # In place of the colour of all lines; what is said of hidden lines, or of a class, holds all the same.

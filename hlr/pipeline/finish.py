@@ -25,6 +25,7 @@ from hlr.request.options import Options, Request
 from hlr.request.style_file import style_of
 from hlr.scene.scene import Scene
 from hlr.source.model import Source
+from hlr.source.selection import also_called
 from hlr.tables.line_classes import by_number, counted
 from hlr.visibility.plan import Plan
 from hlr.visibility.segments import Segments
@@ -93,7 +94,9 @@ def finished(
         for name in ("crossing search", "piercing search"):
             planner.revised(name, True, "one convex body, but rounded its faces overlap in the image")
     # With some parts chosen, a rule may be for the others.
-    unused = () if options.only or options.hide else unused_rules(style, image.parts)
+    names = also_called(source)
+    parts = tuple([DrawnPart(p.name, p.color, p.transform, names.get(p.name, ())) for p in image.parts])
+    unused = () if options.only or options.hide else unused_rules(style, parts)
     seconds = segments.found.seconds
     for name, steps in STEPS.items():
         planner.spent(name, sum([seconds[s] for s in steps]))
@@ -112,7 +115,7 @@ def finished(
         ),
         unit=source.frame.unit,
         up_axis=source.frame.up,
-        parts=tuple([DrawnPart(p.name, p.color, p.transform) for p in image.parts]),
+        parts=parts,
         lines=lines,
         notes=tuple(
             dict.fromkeys(

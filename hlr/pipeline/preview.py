@@ -45,6 +45,7 @@ from hlr.shading.lines import cues, pieces, pieces_by_depth
 from hlr.shading.picture import Pixels, before_the_eye, empty_picture, first_faces, maps, shaded_picture
 from hlr.shading.scene import shaded_scene
 from hlr.source.model import Source
+from hlr.source.selection import also_called
 
 MARGIN = 0.04
 """Empty margin around the model, as a share of the picture's smaller side."""
@@ -122,12 +123,13 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
     notes = tuple(dict.fromkeys((*source.notes, *scene.notes, *strays)))
     if facts.depth > facts.pixel and effects.faces:
         notes = (*notes, _coarse(facts))
+    names = also_called(source)
     return Picture(
         source=source.name,
         view=drawn_view(camera),
         scale=eye.scale / unit,
         pixels=pixels,
-        parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in scene.parts),
+        parts=tuple(DrawnPart(p.name, p.color, p.transform, names.get(p.name, ())) for p in scene.parts),
         first_face=first_faces(scene),
         depth=depth,
         ids=ids,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, Protocol
 
 from hlr.errors import OptionError
 from hlr.request.options import Parameter
@@ -69,12 +69,12 @@ def open_whole(thing: Any, options: PartSelection) -> Source:
     return open_source(thing, options.var, options.annotations, options.parameters, options.hidden_objects)
 
 
-@runtime_checkable
-class _AlsoCalled(Protocol):
-    """A source whose parts go by further names."""
-
-    def also_called(self) -> Mapping[str, Sequence[str]]:
-        """By the names of parts, those of the assemblies that they are in, and of their places there."""
+def also_called(source: Source) -> Mapping[str, tuple[str, ...]]:
+    """By the names of parts, further names that patterns stand for: of their assemblies, and of their places there."""
+    if not hasattr(source, "also_called"):
+        return {}
+    found: Mapping[str, tuple[str, ...]] = source.also_called()
+    return found
 
 
 def matching(patterns: Sequence[str], source: Source, option: str) -> set[str]:
@@ -82,8 +82,7 @@ def matching(patterns: Sequence[str], source: Source, option: str) -> set[str]:
 
     Raises OptionError for a pattern that matches none.
     """
-    names = source.names()
-    above = source.also_called() if isinstance(source, _AlsoCalled) else {}
+    names, above = source.names(), also_called(source)
     found: set[str] = set()
     for pattern in patterns:
         some = {name for name in names if any(matches(each, pattern) for each in (name, *above.get(name, ())))}

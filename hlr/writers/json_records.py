@@ -57,7 +57,8 @@ def listed(parts: Sequence[DrawnPart], lines: Sequence[Line]) -> str:
 
 
 def _part(part: DrawnPart) -> dict[str, Any]:
-    return {"name": part.name, "color": part.color, "transform": numbers(part.transform)}
+    above = {"above": part.above} if part.above else {}
+    return {"name": part.name, "color": part.color, "transform": numbers(part.transform), **above}
 
 
 def _lines(lines: Sequence[Line]) -> Iterator[str]:

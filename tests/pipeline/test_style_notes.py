@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import cadquery as cq
 import pytest
 
 import hlr
+from hlr.drawing.pens import by_part, pens_of, usual_pens_of
 from support.at_size import AT_SIZE
 
 
@@ -52,3 +55,34 @@ def test_of_many_some_are_named(count, more):
 def test_arranged_views_say_it_once():
     drawing = hlr.draw_arranged(model(), options=hlr.Options(style={"parts": {"bolts": {"color": "red"}}}))
     assert [note.code for note in drawing.notes].count("style-unused") == 1
+
+
+AS1 = Path(__file__).parents[1] / "data/as1-oc-214.stp"
+RED, BLUE = "#c00000", "#0000c0"
+RODS = {"parts": {"rod-assembly": {"color": RED}, "L-bracket-assembly_2": {"color": BLUE}}}
+
+
+def colours(drawing):
+    """By the names of parts, without the view, the colour of their visible lines."""
+    pens = by_part(pens_of(drawing, usual_pens_of(drawing)))
+    return {drawing.parts[k].name.rpartition("/")[2]: pen.pen("sharp", True).color for k, pen in pens.items()}
+
+
+@pytest.mark.parametrize("drawn", ["alone", "from JSON", "arranged", "cut"])
+def test_a_rule_may_name_an_assembly_or_its_place(drawn, tmp_path):
+    if drawn == "arranged":
+        drawing = hlr.draw_arranged(AS1, views=["front", "top"], style=RODS, strict=True)
+    else:
+        drawing = hlr.draw(AS1, "front", style=RODS, strict=True, section=True if drawn == "cut" else None)
+    assert not [note for note in drawing.notes if note.code == "style-unused"]
+    if drawn == "from JSON":
+        drawing = hlr.load(drawing.save(tmp_path / "as1.json")).with_style(RODS)
+    found = colours(drawing)
+    assert found["rod"] == found["nut"] == RED and found["plate"] not in (RED, BLUE)
+    # The cut takes two bolts away.
+    assert len([name for name, color in found.items() if color == BLUE]) == (5 if drawn == "cut" else 7)
+
+
+def test_a_rule_for_an_assembly_that_is_not_there_is_told_its_name():
+    (note,) = hlr.draw(AS1, "front", style={"parts": {"rod-asembly": {"color": RED}}}).notes[-1:]
+    assert note.text.startswith('the style\'s rule for parts "rod-asembly" matches no part: perhaps "rod-assembly" or ')
