@@ -1,4 +1,5 @@
-"""A drawing of one view beside a page: it is the view of its name, wherever that lies and whatever looks alike."""
+"""A drawing of one view beside a page: it is the view of its name, wherever that lies and whatever looks alike, and the
+page's other views are left out."""
 
 import pytest
 
@@ -26,17 +27,32 @@ def page(model):
 def test_a_view_by_itself_is_compared_with_the_view_of_its_name(view, scale, ending, model, page, tmp_path):
     hlr.draw(model, view=view, scale=scale).save(tmp_path / f"one.{ending}")
     found = compare(page, tmp_path / f"one.{ending}")
-    rows = {row.name: row for row in found.views}
-    assert list(rows) == ["front", "top", "left", "iso"]
-    assert [name for name, row in rows.items() if row.after] == [view]
-    assert rows[view].same_mm > 50.0 and not any(rows[view].mm.values()), rows[view]
-    assert {each.kind for each in found.differences} == {"gone"}
+    (row,) = found.views
+    assert (row.name, row.before, row.after) == (view, True, True)
+    assert row.same_mm > 50.0 and not any(row.mm.values()), row
+    # Twice as large is a difference, of which no line is one.
+    assert not found.differences and found.same == (scale == 1)
+    assert found.left_out == ({"other views": 3}, {})
 
 
-def test_the_page_may_be_the_second(model, page):
-    found = compare(hlr.draw(model, view="top", scale=1), page)
-    assert [row.name for row in found.views if row.before] == ["top"]
-    assert {each.kind for each in found.differences} == {"new"}
+@pytest.mark.parametrize("page_first", [True, False])
+def test_either_side_may_be_the_page(page_first, model, page):
+    top = hlr.draw(model, view="top", scale=1)
+    found = compare(page, top) if page_first else compare(top, page)
+    assert [row.name for row in found.views] == ["top"] and found.same
+    assert found.left_out[page_first] == {} and found.left_out[not page_first] == {"other views": 3}
+
+
+def test_what_differs_in_that_view_is_found(model, page):
+    changed = hlr.draw(parts(box((30, 30, 10)), box((10, 10, 22), (0, 0, 16))), view="front", scale=1)
+    found = compare(page, changed)
+    assert not found.same and {each.view for each in found.differences} == {"front"}
+
+
+def test_a_page_of_one_view_is_a_page_all_the_same(model, page):
+    """Two pages are compared with all their views."""
+    alone = hlr.draw_arranged(model, views=["front"], scale=1)
+    assert [row.name for row in compare(page, alone).views if not row.after] == ["top", "left", "iso"]
 
 
 def test_it_is_compared_as_it_lies_where_that_is_asked_for(model, page):

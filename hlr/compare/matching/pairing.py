@@ -71,6 +71,19 @@ def with_stated_view(side: Side, other: Side, tolerance_mm: float) -> Side:
     return replace(side, pieces=pieces, about=replace(side.about, views=tuple(sections)))
 
 
+def with_view_alone(page: Side, one: Side) -> Side:
+    """A page without its other views, where the other side is one of its views by itself.
+
+    one: as `with_stated_view` gives it
+    """
+    views = page.about.views
+    if len(one.about.views) != 1 or len(views) < 2 or (name := one.about.views[0]) not in views:
+        return page
+    pieces = page.pieces.take(page.pieces.view == views.index(name))
+    about = replace(page.about, views=(name,), left_out={**page.about.left_out, "other views": len(views) - 1})
+    return replace(page, pieces=replace(pieces, view=np.zeros_like(pieces.view)), about=about)
+
+
 def pairs_of(before: Side, after: Side, tolerance_mm: float) -> list[Pair]:
     """Each view of either page once, in the order of the first page; then lines that belong to none."""
     one, other = before.about.views, after.about.views
