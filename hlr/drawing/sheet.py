@@ -24,6 +24,8 @@ class SheetView:
     right      the direction in the model that points to the right on paper, before the rotation
     origin     millimetres: a point P of the model lies at ((P . right, P . up) * unit * scale, turned by the rotation)
                less this, with up = direction x right. None: the view is in perspective
+    section    of a section a point on its plane, in the model; None: the model is whole
+    corners    where that plane steps, as of `hlr.drawing.section.Section`
     """
 
     name: str
@@ -35,6 +37,8 @@ class SheetView:
     right: tuple[float, float, float]
     letter: str = ""
     origin: tuple[float, float] | None = None
+    section: tuple[float, float, float] | None = None
+    corners: tuple[tuple[float, float, float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

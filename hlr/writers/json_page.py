@@ -85,4 +85,6 @@ def _view(view: SheetView) -> dict[str, Any]:
         "right": numbers(view.right),
         "up": numbers(np.cross(view.direction, view.right)),
         "origin": None if view.origin is None else numbers(view.origin),
+        **({} if view.section is None else {"section": numbers(view.section)}),
+        **({"corners": numbers(view.corners)} if view.corners else {}),
     }

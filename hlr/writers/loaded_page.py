@@ -66,7 +66,8 @@ def _from(first: int, line: Line) -> Line:
 def _view(entry: dict[str, Any], what: str) -> SheetView:
     view: SheetView = revived(SheetView, entry, what)
     positive(view.scale, f"{what}.scale")
-    _finite((*view.place, view.rotation, *(view.origin or ())), what)
+    plane = (*(view.section or ()), *(c for corner in view.corners for c in corner))
+    _finite((*view.place, view.rotation, *(view.origin or ()), *plane), what)
     for name in ("direction", "right"):
         direction(getattr(view, name), f"{what}.{name}")
     if view.letter:

@@ -18,7 +18,7 @@ exchange format.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
 from hlr.drawing.drawing import Drawing
@@ -206,8 +206,15 @@ def _camera(drawing: Drawing) -> dict[str, str]:
 
 def _view(view: SheetView) -> str:
     """A view of a page."""
-    vectors = {"place": view.place, "direction": view.direction, "right": view.right}
-    fields = " ".join(f'{key}="{_vector(value)}"' for key, value in vectors.items())
+    vectors: dict[str, Sequence[float] | None] = {
+        "place": view.place,
+        "origin": view.origin,
+        "direction": view.direction,
+        "right": view.right,
+        "plane": view.section,
+        "plane-corners": [c for corner in view.corners for c in corner] or None,
+    }
+    fields = " ".join(f'{key}="{_vector(value)}"' for key, value in vectors.items() if value is not None)
     cut = f' section="{view.letter}-{view.letter}"' if view.letter else ""
     return (
         f'<view name={_quoted(view.name)} label={_quoted(view.label)} scale="{ratio(view.scale)}" '
@@ -229,7 +236,7 @@ def reached(drawing: Drawing) -> dict[str, str]:
     return {name: f"{value:.3g}" for name, value in drawing.reached.figures().items()}
 
 
-def _vector(values: tuple[float, ...]) -> str:
+def _vector(values: Sequence[float]) -> str:
     return " ".join([f"{value + 0.0:.9g}" for value in values])
 
 

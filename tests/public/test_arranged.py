@@ -142,11 +142,6 @@ def test_pages_at_two_scales_are_compared_view_by_view():
     assert not found.differences
 
 
-def test_a_page_is_not_compared_with_a_model(tmp_path):
-    with pytest.raises(hlr.OptionError, match="is a page of 4 views, and a model is drawn in one"):
-        hlr.compare.compare(hlr.draw_arranged(bracket()), bracket())
-
-
 def test_views_may_come_one_by_one():
     assert len(hlr.draw_arranged(bracket(), views=iter(["front", "top"])).sheet.views) == 2
 

@@ -57,6 +57,15 @@ class StatedView:
 
 
 @dataclass(frozen=True, slots=True)
+class PlacedView:
+    """A view of a page as the page states it. origin: as of `hlr.drawing.sheet.SheetView`; scale: paper to model"""
+
+    view: StatedView
+    scale: float
+    origin: tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
 class About:
     """What is known of a drawing besides its lines.
 
@@ -66,6 +75,7 @@ class About:
     foreign   whether another program drew it
     left_out  what of the file is no line of the drawing, counted
     stated    the view that it states; None: it states none
+    placed    of a page by a method of projection: how each of its views shows the model; empty: not all are stated
     view_found  the view of a model, where it was not said: as the other side shows it, of two models the usual one
     """
 
@@ -75,6 +85,7 @@ class About:
     foreign: bool = False
     left_out: dict[str, int] = field(default_factory=dict)
     stated: StatedView | None = None
+    placed: tuple[PlacedView, ...] = ()
     view_found: str | None = None
 
 

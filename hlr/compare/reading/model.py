@@ -13,6 +13,7 @@ import numpy as np
 from hlr.compare.lines.pieces import Pieces
 from hlr.compare.matching.match import Rule, divided_by
 from hlr.compare.reading.choice import Choice
+from hlr.compare.reading.page_of_model import page_of_model
 from hlr.compare.reading.sides import Behind, Side, is_drawing, side_of
 from hlr.compare.reading.stated_view import as_stated
 from hlr.compare.reading.view import Fit, found_view
@@ -26,6 +27,7 @@ from hlr.tables.line_classes import LINE_CLASSES, by_number, optional
 
 if TYPE_CHECKING:
     from hlr.common.types import Progress
+    from hlr.source.model import Source
 
 ACCURACY_SHARE = 0.2
 """Of the tolerance: how exactly a model is drawn to be compared with the drawing of another program."""
@@ -105,14 +107,20 @@ def side_of_model(
 
     The view is the one that the other side states, or else the named one that fits its lines best.
     """
+    name = Path(given).name if isinstance(given, str | os.PathLike) else None
     if other is not None and other.about.views:
-        raise OptionError(f"{other.title} is a page of {len(other.about.views)} views, {_no_page(given)}")
+        title = f"{other.title} is a page of {len(other.about.views)} views"
+        if not other.about.placed:
+            raise OptionError(f"{title}, {_no_page(given)}")
+        if view is not None:
+            raise OptionError(f"{title} and says itself how they are seen: leave out the view")
+        source = _opened(given, choice, progress)
+        page = page_of_model(source, other, lambda one: _options(one, tolerance_mm, choice), tolerance_mm, progress)
+        return replace(page, title=name or source.name)
     if other is not None:
         _check_section(other, view)
     options = _options(other, tolerance_mm, choice)
-    if progress is not None:
-        progress("source", 0.0)
-    source = open_selected(given, choice)
+    source = _opened(given, choice, progress)
     fit = Fit(view or "iso", 1.0)
     stated = other.about.stated if other is not None and view is None else None
     if stated is not None:
@@ -123,10 +131,17 @@ def side_of_model(
     scale = other.about.scale if other is not None and other.about.scale is not None else _nice(fit.scale)
     drawing = draw_views(source, [fit.view], replace(options, scale=scale), progress)[0]
     side = side_of(drawing, tolerance_mm)
-    name = Path(given).name if isinstance(given, str | os.PathLike) else source.name
     shown = drawing.view.name if stated is None else stated.name
     about = replace(side.about, view_found=shown if view is None else None)
-    return replace(side, title=f"{name}, {shown}", about=about, behind=Behind(source, drawing, to_suit=True))
+    return replace(
+        side, title=f"{name or source.name}, {shown}", about=about, behind=Behind(source, drawing, to_suit=True)
+    )
+
+
+def _opened(given: Any, choice: Choice, progress: Progress | None) -> Source:
+    if progress is not None:
+        progress("source", 0.0)
+    return open_selected(given, choice)
 
 
 def _check_section(other: Side, view: View | None) -> None:
@@ -143,14 +158,17 @@ def _check_section(other: Side, view: View | None) -> None:
 
 
 def _no_page(given: Any) -> str:
-    """What is said of a model beside a page: it is drawn in one view. A document may have pages of its own."""
+    """What is said of a model beside a page that does not say how it is seen. A document may have pages of its own."""
     names = []
     if isinstance(given, str | os.PathLike) and Path(given).suffix.lower() == ".fcstd":
         names = [f'"{name}"' for name, _ in page_names(given)]
     if names:
         which = f"give page, on the command line --page: {listed(names, 'or')}"
         return f"and the model of {Path(given).name} is drawn in one: to compare a page of that document, {which}"
-    return "and a model is drawn in one: compare it with another page, such as hlr draw --arrange makes"
+    return (
+        "and does not say how the model is seen in them, as the SVG and JSON of hlr draw --arrange do: draw it anew as "
+        "one of these, or compare it with another page"
+    )
 
 
 def _options(other: Side | None, tolerance_mm: float, choice: Choice) -> Options:

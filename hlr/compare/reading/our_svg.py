@@ -6,13 +6,14 @@ import math
 import re
 from typing import TYPE_CHECKING
 
-from hlr.compare.lines.sketch import About, Sketch, Trait
+from hlr.compare.lines.sketch import About, PlacedView, Sketch, Trait
 from hlr.compare.reading.path_data import add_path
-from hlr.compare.reading.stated_view import stated_in
+from hlr.compare.reading.stated_view import placed_in, stated_in
 from hlr.compare.reading.svg_elements import SVG
 from hlr.drawing.sheet import views_of_parts
 from hlr.request.scale import scale_of
 from hlr.tables.line_classes import LINE_CLASSES
+from hlr.tables.projection_methods import PROJECTION_METHODS
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
@@ -30,7 +31,14 @@ def about_ours(root: Element) -> About | None:
     parts, views = (tuple(each.get("name", "") for each in ours.iter(f"{_OURS}{tag}")) for tag in ("part", "view"))
     stated = None if views else stated_in(ours.get("view"), ours.attrib)
     said = {each.get("scale", "") for each in ours.iter(f"{_OURS}view")} if views else {ours.get("scale", "")}
-    return About(parts, scale_of(said.pop()) if len(said) == 1 else None, views, stated=stated)
+    placed = _placed(ours) if ours.get("view") in PROJECTION_METHODS else ()
+    return About(parts, scale_of(said.pop()) if len(said) == 1 else None, views, stated=stated, placed=placed)
+
+
+def _placed(ours: Element) -> tuple[PlacedView, ...]:
+    """The views of a page, all of them or none. Raises ValueError where they are damaged."""
+    found = [placed_in(each.attrib) for each in ours.iter(f"{_OURS}view")]
+    return tuple(view for view in found if view is not None) if None not in found else ()
 
 
 def read_ours(root: Element, about: About, sketch: Sketch) -> None:

@@ -6,10 +6,13 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from hlr.compare.lines.sketch import StatedView
+import numpy as np
+
+from hlr.compare.lines.sketch import PlacedView, StatedView
 from hlr.drawing.drawing import DrawnView
 from hlr.drawing.line import Bounds
 from hlr.drawing.section import Section
+from hlr.drawing.sheet import SheetView
 from hlr.request.options import Options, Perspective, SectionPlace, Steps, Vector, View
 from hlr.request.scale import scale_of
 from hlr.source.model import Frame
@@ -33,6 +36,31 @@ def stated_in(name: str | None, fields: Mapping[str, str]) -> StatedView | None:
         raise ValueError("a direction is zero")
     window = Bounds(*_numbers(fields["window"])) if "window" in fields else None
     return StatedView(name, direction, up, eye, target, section, corners, window)
+
+
+def placed_by(view: SheetView) -> PlacedView | None:
+    """A view of a page in memory; None where it is in perspective."""
+    if view.origin is None or view.rotation:
+        return None
+    x, y, z = np.cross(view.direction, view.right).tolist()
+    name = view.name if view.section is None else view.label
+    stated = StatedView(name, view.direction, (x, y, z), section=view.section, corners=view.corners)
+    return PlacedView(stated, view.scale, view.origin)
+
+
+def placed_in(fields: Mapping[str, str]) -> PlacedView | None:
+    """The same of a file: its vectors as texts. None where it does not say them. Raises ValueError as `stated_in`."""
+    if any(name not in fields for name in ("direction", "right", "scale", "origin")):
+        return None
+    up = np.cross(_vector(fields["direction"]), _vector(fields["right"])).tolist()
+    plane = {"section": fields.get("plane"), "section-corners": fields.get("plane-corners")}
+    told = {"direction": fields["direction"], "up": " ".join(map(str, up))}
+    stated = stated_in(fields.get("label"), told | {name: text for name, text in plane.items() if text is not None})
+    x, y = _numbers(fields["origin"])
+    if stated is None or float(fields.get("rotation", "0")) or ("section" in fields and stated.section is None):
+        return None
+    scale = scale_of(fields["scale"])
+    return None if scale is None else PlacedView(stated, scale, (x, y))
 
 
 def stated_as_text(text: str) -> tuple[StatedView | None, float | None]:
