@@ -24,8 +24,8 @@ class SheetView:
     right      the direction in the model that points to the right on paper, before the rotation
     origin     millimetres: a point P of the model lies at ((P . right, P . up) * unit * scale, turned by the rotation)
                less this, with up = direction x right. None: the view is in perspective
-    section    of a section a point on its plane, in the model; None: the model is whole
-    corners    where that plane steps, as of `hlr.drawing.section.Section`
+    section    of a section a point on its plane, model units; None: the model is whole
+    corners    where that plane steps, model units, as of `hlr.drawing.section.Section`
     """
 
     name: str

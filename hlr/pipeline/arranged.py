@@ -393,18 +393,6 @@ def _shown(placed: _Placed, scale: float, marks: Mapping[str, SectionMark]) -> S
     view, mark = placed.drawing.view, marks.get(placed.name)
     letter = "" if mark is None else mark.letter
     x, y = (np.array(placed.drawing.origin) - placed.shift).tolist()
+    shown = SheetView(placed.name, view.name, scale, placed.place, 0.0, view.direction, view.right, letter, (x, y))
     cut = placed.drawing.section
-    section, corners = (None, ()) if cut is None else (cut.point, cut.corners)
-    return SheetView(
-        placed.name,
-        view.name,
-        scale,
-        placed.place,
-        0.0,
-        view.direction,
-        view.right,
-        letter,
-        (x, y),
-        section,
-        corners,
-    )
+    return shown if cut is None else replace(shown, section=cut.point, corners=cut.corners)

@@ -117,8 +117,8 @@ def side_of_model(
         source = _opened(given, choice, progress)
         page = page_of_model(source, other, lambda one: _options(one, tolerance_mm, choice), tolerance_mm, progress)
         return replace(page, title=name or source.name)
-    if other is not None:
-        _check_section(other, view)
+    if other is not None and view is None:
+        _check_section(other)
     options = _options(other, tolerance_mm, choice)
     source = _opened(given, choice, progress)
     fit = Fit(view or "iso", 1.0)
@@ -144,8 +144,8 @@ def _opened(given: Any, choice: Choice, progress: Progress | None) -> Source:
     return open_selected(given, choice)
 
 
-def _check_section(other: Side, view: View | None) -> None:
-    """Raise OptionError for a section beside which the whole model would be drawn."""
+def _check_section(other: Side) -> None:
+    """Raise OptionError for a section beside which the whole model would be drawn, though nobody asked for that."""
     if not (other.pieces.kind == LINE_CLASSES["hatch"].number).any():
         return
     if other.about.stated is None or other.about.stated.section is None:
@@ -153,8 +153,6 @@ def _check_section(other: Side, view: View | None) -> None:
             f"{other.title} is a section and does not say where its plane lies, as DXF files before R2004 and files of "
             "earlier versions do not: draw it anew as SVG, JSON, PDF or DXF"
         )
-    if view is not None:
-        raise OptionError(f"{other.title} is a section and says itself how it is seen: leave out the view")
 
 
 def _no_page(given: Any) -> str:
