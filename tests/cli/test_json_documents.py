@@ -95,6 +95,8 @@ def of_draw(hlr_real):
         (BOX, "--section", "front"),
         (BOX, "--section", "front@3,6:5"),
         (BOX, "--arrange", "first-angle", "--section", "front", "--hidden"),
+        (BOX, "--arrange", "first-angle", "--section", "front@3,6:5"),
+        (DATA / "as1-oc-214.stp", "--only", "rod-assembly"),
         (HOUSING, "--page", "Page"),
     ):
         yield json.loads(hlr_real("draw", *arguments, "-o", "a.json", "--json").out)

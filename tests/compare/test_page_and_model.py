@@ -76,3 +76,11 @@ def test_a_damaged_page_is_refused(wrong, tmp_path):
     path.write_text(re.sub(f'(<view name="front".*?) {name}="[^"]*"', rf"\1 {wrong}", path.read_text("utf-8")), "utf-8")
     with pytest.raises(hlr.HlrError, match=r"page.svg"):
         compare(path, plate())
+
+
+def test_a_page_with_a_template_and_a_scale_of_its_own(tmp_path):
+    """Its views lie elsewhere than on a page without: they are moved to their places."""
+    frame = tmp_path / "frame.svg"
+    frame.write_text('<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210"/>')
+    page = hlr.draw_arranged(plate(), scale=0.5, section={"left": 3.0}, template=frame, room=(100, 20, 280, 190))
+    assert compare(page.save(tmp_path / "page.svg"), plate()).same

@@ -58,11 +58,22 @@ class StatedView:
 
 @dataclass(frozen=True, slots=True)
 class PlacedView:
-    """A view of a page as the page states it. origin: as of `hlr.drawing.sheet.SheetView`; scale: paper to model"""
+    """A view of a page as the page states it. name, scale, origin, letter: as of `hlr.drawing.sheet.SheetView`"""
 
+    name: str
     view: StatedView
     scale: float
     origin: tuple[float, float]
+    letter: str
+
+
+@dataclass(frozen=True, slots=True)
+class StatedPage:
+    """A page by a method of projection. size: width and height, millimetres; None: not known"""
+
+    method: str
+    size: tuple[float, float] | None
+    views: tuple[PlacedView, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +86,7 @@ class About:
     foreign   whether another program drew it
     left_out  what of the file is no line of the drawing, counted
     stated    the view that it states; None: it states none
-    placed    of a page by a method of projection: how each of its views shows the model; empty: not all are stated
+    page      of a page by a method of projection: how its views show the model; None: it does not state that
     view_found  the view of a model, where it was not said: as the other side shows it, of two models the usual one
     """
 
@@ -85,7 +96,7 @@ class About:
     foreign: bool = False
     left_out: dict[str, int] = field(default_factory=dict)
     stated: StatedView | None = None
-    placed: tuple[PlacedView, ...] = ()
+    page: StatedPage | None = None
     view_found: str | None = None
 
 

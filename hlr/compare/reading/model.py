@@ -110,12 +110,12 @@ def side_of_model(
     name = Path(given).name if isinstance(given, str | os.PathLike) else None
     if other is not None and other.about.views:
         title = f"{other.title} is a page of {len(other.about.views)} views"
-        if not other.about.placed:
+        if other.about.page is None:
             raise OptionError(f"{title}, {_no_page(given)}")
         if view is not None:
             raise OptionError(f"{title} and says itself how they are seen: leave out the view")
         source = _opened(given, choice, progress)
-        page = page_of_model(source, other, lambda one: _options(one, tolerance_mm, choice), tolerance_mm, progress)
+        page = page_of_model(source, other, _options(other, tolerance_mm, choice), tolerance_mm, progress)
         return replace(page, title=name or source.name)
     if other is not None and view is None:
         _check_section(other)

@@ -6,7 +6,7 @@ import math
 import re
 from typing import TYPE_CHECKING
 
-from hlr.compare.lines.sketch import About, PlacedView, Sketch, Trait
+from hlr.compare.lines.sketch import About, Sketch, StatedPage, Trait
 from hlr.compare.reading.path_data import add_path
 from hlr.compare.reading.stated_view import placed_in, stated_in
 from hlr.compare.reading.svg_elements import SVG
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 _OURS = "{urn:hlr:drawing:1}"
 _SHAPES = ("path", "circle", "ellipse")
+_SIZE = re.compile(r"([0-9]{1,6}(?:\.[0-9]{1,9})?)mm")
 _TURN = re.compile(r"rotate\((\S+) \S+ \S+\)")
 
 
@@ -31,14 +32,17 @@ def about_ours(root: Element) -> About | None:
     parts, views = (tuple(each.get("name", "") for each in ours.iter(f"{_OURS}{tag}")) for tag in ("part", "view"))
     stated = None if views else stated_in(ours.get("view"), ours.attrib)
     said = {each.get("scale", "") for each in ours.iter(f"{_OURS}view")} if views else {ours.get("scale", "")}
-    placed = _placed(ours) if ours.get("view") in PROJECTION_METHODS else ()
-    return About(parts, scale_of(said.pop()) if len(said) == 1 else None, views, stated=stated, placed=placed)
+    return About(parts, scale_of(said.pop()) if len(said) == 1 else None, views, stated=stated, page=_page(root, ours))
 
 
-def _placed(ours: Element) -> tuple[PlacedView, ...]:
-    """The views of a page, all of them or none. Raises ValueError where they are damaged."""
-    found = [placed_in(each.attrib) for each in ours.iter(f"{_OURS}view")]
-    return tuple(view for view in found if view is not None) if None not in found else ()
+def _page(root: Element, ours: Element) -> StatedPage | None:
+    """A page by a method of projection; None where it does not state all views. Raises ValueError if damaged."""
+    method, found = ours.get("view", ""), [placed_in(each.attrib) for each in ours.iter(f"{_OURS}view")]
+    if method not in PROJECTION_METHODS or not found or None in found:
+        return None
+    width, height = (_SIZE.fullmatch(root.get(name, "")) for name in ("width", "height"))
+    size = None if width is None or height is None else (float(width[1]), float(height[1]))
+    return StatedPage(method, size, tuple(view for view in found if view is not None))
 
 
 def read_ours(root: Element, about: About, sketch: Sketch) -> None:

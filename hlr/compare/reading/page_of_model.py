@@ -1,80 +1,110 @@
-"""A model beside a page of views by a method of projection: it is drawn in each view as the page states it."""
+"""A model beside a page of views by a method of projection: the page is drawn anew, with the same views."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
+import numpy.typing as npt
 
 from hlr.common.types import Progress
-from hlr.compare.lines.pieces import Pieces, joined
-from hlr.compare.lines.sketch import About, PlacedView, Sketch, StatedView
+from hlr.compare.lines.pieces import joined
+from hlr.compare.lines.sketch import PlacedView, StatedPage
 from hlr.compare.reading.sides import Behind, Side, side_of
 from hlr.compare.reading.stated_view import as_stated
 from hlr.drawing.drawing import Drawing, DrawnView
-from hlr.pipeline.draw import draw_views
-from hlr.request.directions import NAMED
-from hlr.request.options import Options, View
+from hlr.drawing.sheet import SheetView
+from hlr.errors import ViewError
+from hlr.public.arranged import Method, draw_arranged
+from hlr.request.directions import NAMED, normalized, pictorial
+from hlr.request.options import Options
 from hlr.source.model import Source
+from hlr.tables.line_classes import LINE_CLASSES
 
 _ROUNDED = 1e-6
 """How far a direction in a file may be off, of length 1."""
 
 
 def page_of_model(
-    source: Source,
-    other: Side,
-    options: Callable[[Side], Options],
-    tolerance_mm: float,
-    progress: Progress | None = None,
+    source: Source, other: Side, options: Options, tolerance_mm: float, progress: Progress | None = None
 ) -> Side:
-    """The model in the views of the other side, each at its place there.
+    """The model on a page like that of the other side, each view where it lies there.
 
-    options: what a view of that side is drawn with
+    options: with all classes of lines that the other side has
     """
-    names, placed = other.about.views, other.about.placed
-    wishes = [
-        replace(options(_view_of(other, number)), scale=placed_view.scale) for number, placed_view in enumerate(placed)
-    ]
-    parts, views, behind = list[str](), list[Pieces](), dict[str, Behind]()
-    for number, drawing in enumerate(_drawings(source, placed, wishes, progress)):
-        shift = np.array(drawing.origin) - np.array(placed[number].origin)
-        pieces = side_of(drawing, tolerance_mm).pieces.shifted(shift)
-        # Parts are called by their view on a page.
-        views.append(replace(pieces, view=np.full_like(pieces.view, number), part=pieces.part + len(parts)))
-        parts += [f"{names[number]}/{part.name}" for part in drawing.parts]
-        behind[names[number]] = Behind(source, drawing, shift=shift, to_suit=True)
-    about = About(tuple(parts), other.about.scale, names)
-    return Side(source.name, joined(views), about, Sketch(), behind_views=behind)
+    page = other.about.page
+    assert page is not None
+    drawing = _drawn(source, page, _as_views_have(options, other), progress)
+    assert drawing.sheet is not None
+    side, views, behind = side_of(drawing, tolerance_mm), [], {}
+    origins = {each.name: np.array(each.origin) for each in page.views}
+    for number, view in enumerate(drawing.sheet.views):
+        pieces, own = side.pieces.take(side.pieces.view == number), np.array(view.origin)
+        shift = own - origins.get(view.name, own)
+        views.append(pieces.shifted(shift))
+        if view.section is None:
+            behind[view.name] = Behind(source, _alone(drawing, view), shift=shift, to_suit=True)
+    return replace(side, title=source.name, pieces=joined(views), behind_views=behind)
 
 
-def _view_of(page: Side, number: int) -> Side:
-    return replace(page, pieces=page.pieces.take(page.pieces.view == number))
+def _drawn(source: Source, page: StatedPage, options: Options, progress: Progress | None) -> Drawing:
+    views: list[Any] = []
+    cuts, whole = list[tuple[str, Any, Any]](), list[Any]()
+    for each in page.views:
+        direction, wishes = as_stated(each.view, source.frame, options)
+        view = _asked(each, direction)
+        if view not in views:
+            views.append(view)
+        if each.view.section is not None:
+            cuts.append((each.letter, view, wishes.section))
+        else:
+            whole.append(view)
+    # Letters are in the order in which sections were asked for.
+    cuts.sort(key=lambda cut: (len(cut[0]), cut[0]))
+    sections = [(view, place) for _, view, place in cuts]
+    besides = tuple(view for view in whole if any(cut == view for cut, _ in sections))
+    wanted = replace(options, page=page.size, section=sections or None, whole=besides)
+    method = cast(Method, page.method)
+    # Most pages have the scale that suits them, and are laid out in another way where it is asked for.
+    found = draw_arranged(source, method, views, wanted, progress)
+    scale = page.views[0].scale
+    return (
+        found if found.scale == scale else draw_arranged(source, method, views, replace(wanted, scale=scale), progress)
+    )
 
 
-def _drawings(
-    source: Source, placed: tuple[PlacedView, ...], wishes: list[Options], progress: Progress | None
-) -> list[Drawing]:
-    """Each view with its own wishes. Whole views are drawn together, as on the page: all see one mesh of the model."""
-    whole = [k for k, each in enumerate(placed) if each.view.section is None and each.view.name in NAMED]
-    found: dict[int, Drawing] = {}
-    for first in whole:
-        if first in found:
-            continue
-        named = cast("list[View]", [placed[k].view.name for k in whole])
-        drawn = draw_views(source, named, wishes[first], progress)
-        alike = [(k, drawing) for k, drawing in zip(whole, drawn, strict=True) if wishes[k] == wishes[first]]
-        found.update((k, drawing) for k, drawing in alike if _shows(drawing.view, placed[k].view))
-    for k, each in enumerate(placed):
-        if k not in found:
-            direction, options = as_stated(each.view, source.frame, wishes[k])
-            (found[k],) = draw_views(source, [direction], options, progress)
-    return [found[k] for k in range(len(placed))]
+def _asked(each: PlacedView, direction: Any) -> Any:
+    """The view as it was asked for: its name, which a further section has with its letter, or its direction."""
+    name = each.view.name.removesuffix(f"-{each.letter}") if each.letter else each.view.name
+    if name in NAMED:
+        return name
+    with suppress(ValueError, ViewError):
+        numbers = tuple(map(float, name.split(",")))
+        if len(numbers) == len(direction) and np.allclose(normalized(numbers, name), direction, atol=_ROUNDED):
+            return numbers
+    return direction
 
 
-def _shows(drawn: DrawnView, stated: StatedView) -> bool:
-    """Whether a drawing by the name of a view shows what is stated."""
-    pairs = (drawn.direction, stated.direction), (drawn.up, stated.up)
-    return all(np.allclose(own, other, rtol=0.0, atol=_ROUNDED) for own, other in pairs)
+def _as_views_have(options: Options, other: Side) -> Options:
+    """The options, with hidden lines and smooth edges left to what is usual where no other view has them."""
+    page, pieces = other.about.page, other.pieces
+    assert page is not None
+    slanted = [k for k, each in enumerate(page.views) if pictorial(each.view.direction)]
+    cut = [k for k, each in enumerate(page.views) if each.view.section is not None]
+    flat = [k for k in range(len(page.views)) if k not in slanted]
+
+    def wanted(has: npt.NDArray[np.bool_], unusual: list[int]) -> bool | None:
+        return bool(has.any()) and (bool(np.isin(pieces.view[has], unusual).any()) or None)
+
+    smooth = pieces.kind == LINE_CLASSES["smooth"].number
+    return replace(options, hidden=wanted(pieces.visible == 0, slanted + cut), smooth=wanted(smooth, flat))
+
+
+def _alone(drawing: Drawing, view: SheetView) -> Drawing:
+    """A view of a page as a drawing of its own, without lines: its camera, and where it lies."""
+    up = tuple(np.cross(view.direction, view.right).tolist())
+    camera = DrawnView(view.label, "orthographic", view.direction, view.right, up)
+    assert view.origin is not None
+    return replace(drawing, view=camera, origin=view.origin, sheet=None, page=None, lines=())

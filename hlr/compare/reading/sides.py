@@ -12,7 +12,7 @@ import numpy as np
 
 from hlr.compare.lines.pieces import Floats, Pieces
 from hlr.compare.lines.sketch import About, Sketch, Trait
-from hlr.compare.reading.stated_view import placed_by, stated_by
+from hlr.compare.reading.stated_view import page_by, stated_by
 from hlr.compare.reading.svg import read_svg
 from hlr.drawing.curve import Arc, raised
 from hlr.drawing.drawing import Drawing
@@ -135,10 +135,7 @@ def _read_drawing(drawing: Drawing, sketch: Sketch) -> About:
                 sketch.cubic(*points[k : k + 4])
     if drawing.sheet is not None:
         scales = {view.scale for view in drawing.sheet.views}
-        placed = tuple(map(placed_by, drawing.sheet.views)) if drawing.sheet.method else ()
-        known = tuple(view for view in placed if view is not None)
-        scale = scales.pop() if len(scales) == 1 else None
-        return About(parts, scale, views, placed=known if len(known) == len(placed) else ())
+        return About(parts, scales.pop() if len(scales) == 1 else None, views, page=page_by(drawing))
     return About(parts, drawing.scale, views, stated=stated_by(drawing.view, drawing.section, drawing.window))
 
 

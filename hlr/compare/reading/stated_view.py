@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from hlr.compare.lines.sketch import PlacedView, StatedView
-from hlr.drawing.drawing import DrawnView
+from hlr.compare.lines.sketch import PlacedView, StatedPage, StatedView
+from hlr.drawing.drawing import Drawing, DrawnView
 from hlr.drawing.line import Bounds
 from hlr.drawing.section import Section
 from hlr.drawing.sheet import SheetView
@@ -38,18 +38,26 @@ def stated_in(name: str | None, fields: Mapping[str, str]) -> StatedView | None:
     return StatedView(name, direction, up, eye, target, section, corners, window)
 
 
-def placed_by(view: SheetView) -> PlacedView | None:
-    """A view of a page in memory; None where it is in perspective."""
+def page_by(drawing: Drawing) -> StatedPage | None:
+    """Of a page in memory; None where it is by no method of projection, or a view is in perspective."""
+    if drawing.sheet is None or not drawing.sheet.method:
+        return None
+    found = [_placed_by(view) for view in drawing.sheet.views]
+    size = None if drawing.page is None else (drawing.page.width, drawing.page.height)
+    views = tuple(view for view in found if view is not None)
+    return StatedPage(drawing.sheet.method, size, views) if len(views) == len(found) else None
+
+
+def _placed_by(view: SheetView) -> PlacedView | None:
     if view.origin is None or view.rotation:
         return None
     x, y, z = np.cross(view.direction, view.right).tolist()
-    name = view.name if view.section is None else view.label
-    stated = StatedView(name, view.direction, (x, y, z), section=view.section, corners=view.corners)
-    return PlacedView(stated, view.scale, view.origin)
+    stated = StatedView(view.label, view.direction, (x, y, z), section=view.section, corners=view.corners)
+    return PlacedView(view.name, stated, view.scale, view.origin, view.letter)
 
 
 def placed_in(fields: Mapping[str, str]) -> PlacedView | None:
-    """The same of a file: its vectors as texts. None where it does not say them. Raises ValueError as `stated_in`."""
+    """A view of a page of a file: its vectors as texts. None where it does not say them. Raises as `stated_in`."""
     if any(name not in fields for name in ("direction", "right", "scale", "origin")):
         return None
     up = np.cross(_vector(fields["direction"]), _vector(fields["right"])).tolist()
@@ -60,7 +68,8 @@ def placed_in(fields: Mapping[str, str]) -> PlacedView | None:
     if stated is None or float(fields.get("rotation", "0")) or ("section" in fields and stated.section is None):
         return None
     scale = scale_of(fields["scale"])
-    return None if scale is None else PlacedView(stated, scale, (x, y))
+    letter = fields.get("section", "").partition("-")[0]
+    return None if scale is None else PlacedView(fields.get("name", ""), stated, scale, (x, y), letter)
 
 
 def stated_as_text(text: str) -> tuple[StatedView | None, float | None]:
