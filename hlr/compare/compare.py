@@ -13,7 +13,7 @@ from hlr.common.numbers import typed
 from hlr.compare.comparison import Comparison
 from hlr.compare.lines.motion import Motion
 from hlr.compare.matching.judge import judged
-from hlr.compare.matching.pairing import with_stated_view, with_view_alone
+from hlr.compare.matching.pairing import of_one_view
 from hlr.compare.matching.register import translation
 from hlr.compare.matching.similarity import laid_share, similarity
 from hlr.compare.matching.views import by_view
@@ -103,10 +103,7 @@ def compare(
         after = replace(after, pieces=after.pieces.mapped(np.eye(2) * (scales[0] / scales[1])))
     before, after = _divided(before, after, tolerance_mm)
     pages = len(before.about.views), len(after.about.views)
-    one, other = with_stated_view(before, after, tolerance_mm), with_stated_view(after, before, tolerance_mm)
-    # Views that were there before are those of a page.
-    before = with_view_alone(one, other) if not after.about.views else one
-    after = with_view_alone(other, one) if not pages[0] else other
+    before, after = of_one_view(before, after, tolerance_mm)
     if register == "auto":
         # A view by itself has no place on a page.
         by_itself = (len(before.about.views), len(after.about.views)) != pages

@@ -51,7 +51,7 @@ def with_views_of(side: Side, other: Side) -> Side:
     return replace(side, pieces=replace(side.pieces, view=near[number]), about=about)
 
 
-def with_stated_view(side: Side, other: Side, tolerance_mm: float) -> Side:
+def _with_stated_view(side: Side, other: Side, tolerance_mm: float) -> Side:
     """A drawing of one view that it states, as the view of that name where the other side is a page that has it.
 
     Where that has several sections of the view, it is the one that the drawing is most like.
@@ -71,14 +71,21 @@ def with_stated_view(side: Side, other: Side, tolerance_mm: float) -> Side:
     return replace(side, pieces=pieces, about=replace(side.about, views=tuple(sections)))
 
 
-def with_view_alone(page: Side, one: Side) -> Side:
-    """A page without its other views, where the other side is one of its views by itself.
+def of_one_view(before: Side, after: Side, tolerance_mm: float) -> tuple[Side, Side]:
+    """Both sides. Where one is a page and the other states that it is a view of it, the page keeps that view alone."""
+    if after.about.views:
+        one = _with_stated_view(before, after, tolerance_mm)
+        return one, after if before.about.views else _with_view_alone(after, one)
+    other = _with_stated_view(after, before, tolerance_mm)
+    return _with_view_alone(before, other), other
 
-    one: as `with_stated_view` gives it
-    """
+
+def _with_view_alone(page: Side, one: Side) -> Side:
+    """A page without its other views. one: the other side, a drawing of one view; without views it states none."""
     views = page.about.views
-    if len(one.about.views) != 1 or len(views) < 2 or (name := one.about.views[0]) not in views:
+    if not one.about.views or len(views) < 2:
         return page
+    name = one.about.views[0]
     pieces = page.pieces.take(page.pieces.view == views.index(name))
     about = replace(page.about, views=(name,), left_out={**page.about.left_out, "other views": len(views) - 1})
     return replace(page, pieces=replace(pieces, view=np.zeros_like(pieces.view)), about=about)

@@ -110,13 +110,15 @@ def side_of_model(
     name = Path(given).name if isinstance(given, str | os.PathLike) else None
     if other is not None and other.about.views:
         title = f"{other.title} is a page of {len(other.about.views)} views"
-        if other.about.page is None:
+        page = other.about.page
+        if page is None:
             raise OptionError(f"{title}, {_no_page(given)}")
         if view is not None:
             raise OptionError(f"{title} and says itself how they are seen: leave out the view")
         source = _opened(given, choice, progress)
-        page = page_of_model(source, other, _options(other, tolerance_mm, choice), tolerance_mm, progress)
-        return replace(page, title=name or source.name)
+        wanted = _options(other, tolerance_mm, choice)
+        side = page_of_model(source, page, other.pieces, wanted, tolerance_mm, progress)
+        return replace(side, title=name or source.name)
     if other is not None and view is None:
         _check_section(other)
     options = _options(other, tolerance_mm, choice)

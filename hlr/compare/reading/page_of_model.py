@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.common.types import Progress
-from hlr.compare.lines.pieces import joined
+from hlr.compare.lines.pieces import Pieces, joined
 from hlr.compare.lines.sketch import PlacedView, StatedPage
 from hlr.compare.reading.sides import Behind, Side, side_of
 from hlr.compare.reading.stated_view import as_stated
@@ -28,15 +28,18 @@ _ROUNDED = 1e-6
 
 
 def page_of_model(
-    source: Source, other: Side, options: Options, tolerance_mm: float, progress: Progress | None = None
+    source: Source,
+    page: StatedPage,
+    lines: Pieces,
+    options: Options,
+    tolerance_mm: float,
+    progress: Progress | None = None,
 ) -> Side:
     """The model on a page like that of the other side, each view where it lies there.
 
-    options: with all classes of lines that the other side has
+    lines: of the other side; options: with all classes of lines that it has
     """
-    page = other.about.page
-    assert page is not None
-    drawing = _drawn(source, page, _as_views_have(options, other), progress)
+    drawing = _drawn(source, page, _as_views_have(options, page, lines), progress)
     assert drawing.sheet is not None
     side, views, behind = side_of(drawing, tolerance_mm), [], {}
     origins = {each.name: np.array(each.origin) for each in page.views}
@@ -50,6 +53,7 @@ def page_of_model(
 
 
 def _drawn(source: Source, page: StatedPage, options: Options, progress: Progress | None) -> Drawing:
+    """The page drawn anew: the same views and sections, in the same order, at the same scale."""
     views: list[Any] = []
     cuts, whole = list[tuple[str, Any, Any]](), list[Any]()
     for each in page.views:
@@ -87,19 +91,20 @@ def _asked(each: PlacedView, direction: Any) -> Any:
     return direction
 
 
-def _as_views_have(options: Options, other: Side) -> Options:
-    """The options, with hidden lines and smooth edges left to what is usual where no other view has them."""
-    page, pieces = other.about.page, other.pieces
-    assert page is not None
+def _as_views_have(options: Options, page: StatedPage, lines: Pieces) -> Options:
+    """The options; hidden lines and smooth edges are left to what is usual where only such views have them."""
     slanted = [k for k, each in enumerate(page.views) if pictorial(each.view.direction)]
     cut = [k for k, each in enumerate(page.views) if each.view.section is not None]
     flat = [k for k in range(len(page.views)) if k not in slanted]
 
     def wanted(has: npt.NDArray[np.bool_], unusual: list[int]) -> bool | None:
-        return bool(has.any()) and (bool(np.isin(pieces.view[has], unusual).any()) or None)
+        """False: no view has them; True: views have them that usually do not; None: usual ones alone."""
+        if not has.any():
+            return False
+        return True if np.isin(lines.view[has], unusual).any() else None
 
-    smooth = pieces.kind == LINE_CLASSES["smooth"].number
-    return replace(options, hidden=wanted(pieces.visible == 0, slanted + cut), smooth=wanted(smooth, flat))
+    smooth = lines.kind == LINE_CLASSES["smooth"].number
+    return replace(options, hidden=wanted(lines.visible == 0, slanted + cut), smooth=wanted(smooth, flat))
 
 
 def _alone(drawing: Drawing, view: SheetView) -> Drawing:

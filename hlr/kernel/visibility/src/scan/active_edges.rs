@@ -22,7 +22,7 @@ pub struct Crossings<P> {
 
 /// An edge that is a contour, drawn, or both: it comes into a band once.
 #[derive(Clone, Copy)]
-struct Both {
+struct BandEdge {
     edge: u32,
     /// Its number among the contours, or NONE.
     contour: u32,
@@ -33,14 +33,14 @@ struct Both {
 const NONE: u32 = u32::MAX;
 
 /// The edges of both lists, which ascend, each once.
-fn both(contours: &[Contour], drawn: &[u32]) -> Vec<Both> {
+fn each_once(contours: &[Contour], drawn: &[u32]) -> Vec<BandEdge> {
     let mut out = Vec::with_capacity(contours.len().max(drawn.len()));
     let (mut i, mut j) = (0, 0);
     while i < contours.len() || j < drawn.len() {
         let (c, f) = (contours.get(i).map_or(NONE, |c| c.edge), drawn.get(j).map_or(NONE, |&e| e));
         let edge = c.min(f);
         let number = |here: bool, number: usize| if here { number as u32 } else { NONE };
-        out.push(Both { edge, contour: number(c == edge, i), drawn: number(f == edge, j) });
+        out.push(BandEdge { edge, contour: number(c == edge, i), drawn: number(f == edge, j) });
         i += usize::from(c == edge);
         j += usize::from(f == edge);
     }
@@ -55,7 +55,7 @@ struct Part {
     xmin: i32,
     xmax: i32,
     group: i32,
-    /// Numbers of `Both`.
+    /// Numbers of `BandEdge`.
     contour: u32,
     drawn: u32,
 }
@@ -96,8 +96,8 @@ pub fn crossings<A: Arithmetic>(
     contours: &[Contour],
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Crossings<A::Parameter> {
-    let items = both(contours, drawn);
-    let range = |of: &Both| {
+    let items = each_once(contours, drawn);
+    let range = |of: &BandEdge| {
         let (a, b) = mesh.ends(of.edge as usize);
         y_range(a, b)
     };
@@ -115,7 +115,7 @@ pub fn crossings<A: Arithmetic>(
             let (y0, y1) = bands.limits(k);
             let (mut parts, mut cs, mut fs) = (Vec::with_capacity(bucket.len()), Vec::new(), Vec::new());
             for &i in bucket {
-                let Both { edge, contour, drawn } = items[i as usize];
+                let BandEdge { edge, contour, drawn } = items[i as usize];
                 let (a, b) = mesh.ends(edge as usize);
                 let (xmin, xmax) = clipped_x(a, b, y0, y1);
                 let key = key(xmin, parts.len());
@@ -228,10 +228,10 @@ mod tests {
     #[test]
     fn an_edge_of_both_lists_comes_once() {
         let contours = [1, 3, 7].map(|edge| Contour { edge, jump: 1 });
-        let found = both(&contours, &[0, 3, 4, 7, 8]).into_iter().map(|of| (of.edge, of.contour, of.drawn));
+        let found = each_once(&contours, &[0, 3, 4, 7, 8]).into_iter().map(|of| (of.edge, of.contour, of.drawn));
         let wanted = [(0, NONE, 0), (1, 0, NONE), (3, 1, 1), (4, NONE, 2), (7, 2, 3), (8, NONE, 4)];
         assert_eq!(found.collect::<Vec<_>>(), wanted);
-        assert!(both(&[], &[]).is_empty());
+        assert!(each_once(&[], &[]).is_empty());
     }
 
     #[test]
