@@ -11,8 +11,9 @@ import pytest
 from hard.brep import faultless, kinds
 
 import hlr
+from hlr.source import open_source
 from support.at_size import AT_SIZE
-from support.brep_shapes import terrain
+from support.brep_shapes import rough_terrain, terrain
 from support.expected import defects, of_kind
 
 
@@ -42,3 +43,11 @@ def test_from_above_only_its_border():
     assert {line.kind for line in hlr.draw(terrain(), "top", **AT_SIZE).lines} == {"boundary"}
     (defect,) = defects(terrain())
     assert defect.startswith("open: ")
+
+
+@pytest.mark.slow
+def test_millions_of_triangles_within_a_long_rough_border():
+    """As fine as was asked for: the many flips that the border needs before its first inner point are not too many."""
+    meshed = open_source(rough_terrain()).mesh(6e-4, 0.5)
+    assert meshed.notes == []
+    assert 5_000_000 < meshed.parts.tables.triangle_start[-1] < 6_000_000

@@ -97,17 +97,26 @@ def height(x, y):
 
 def terrain(count=14):
     """One B-spline face of hills through a grid of heights: even steps in x and y keep it as flat as the formula."""
+    x, y = np.linspace(0, 80, count)[:, None], np.linspace(0, 60, count)
+    return _through(height(x, y), 80, 60)
+
+
+def rough_terrain(count=40):
+    """One B-spline face through a grid of random heights from 0 to 1, 1 apart."""
+    return _through(np.random.default_rng(1).random((count, count)), count - 1, count - 1)
+
+
+def _through(z, width, depth):
+    """One B-spline face through a grid of heights, which has its first corner at the origin."""
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
     from OCP.GeomAPI import GeomAPI_PointsToBSplineSurface
     from OCP.TColStd import TColStd_Array2OfReal
 
-    heights = TColStd_Array2OfReal(1, count, 1, count)
-    dx, dy = 80 / (count - 1), 60 / (count - 1)
-    for i in range(count):
-        for j in range(count):
-            heights.SetValue(i + 1, j + 1, float(height(i * dx, j * dy)))
+    heights = TColStd_Array2OfReal(1, z.shape[0], 1, z.shape[1])
+    for (i, j), value in np.ndenumerate(z):
+        heights.SetValue(i + 1, j + 1, float(value))
     maker = GeomAPI_PointsToBSplineSurface()
-    maker.Interpolate(heights, 0.0, dx, 0.0, dy)
+    maker.Interpolate(heights, 0.0, width / (z.shape[0] - 1), 0.0, depth / (z.shape[1] - 1))
     return cq.Face(BRepBuilderAPI_MakeFace(maker.Surface(), 1e-6).Face())
 
 

@@ -10,7 +10,8 @@ use super::flip::{NONE, after_in, before_in, turn, twins};
 use super::plane::side;
 use super::progress::Progress;
 
-/// Limit on flips, in multiples of the number of edges. More flips mean that the initial triangles are unusable.
+/// Limit on flips, in multiples of the number of triangles. More flips mean that the initial triangles are unusable, or
+/// that a long outline has been triangulated without inner points.
 const MOST_TURNS: usize = 200;
 /// Limit on searches through all triangles, for points that the walk does not reach.
 const MOST_SEARCHES: usize = 2000;
@@ -54,11 +55,11 @@ impl Triangulation {
     }
 
     /// Flips edges of the first `count` triangles that violate the Delaunay condition, and all edges that do so as a
-    /// result. False if that exceeds the limit.
-    pub fn settle(&mut self, places: &[[f64; 2]], count: usize, steps: &Progress) -> bool {
+    /// result. False if that exceeds the limit, which is higher by `more` flips.
+    pub fn settle(&mut self, places: &[[f64; 2]], count: usize, more: usize, steps: &Progress) -> bool {
         self.stack.clear();
         self.stack.extend(0..3 * count as u32);
-        let mut left = MOST_TURNS * self.triangles.len();
+        let mut left = MOST_TURNS * self.triangles.len() + more;
         while let Some(edge) = self.stack.pop() {
             steps.step();
             if self.turned(places, edge as usize) {
@@ -243,7 +244,7 @@ mod tests {
             assert!(net.around(point).all(|t| net.triangles[t].contains(&point)));
         }
         let before = net.triangles.clone();
-        assert!(net.settle(&places, net.triangles.len(), &Progress::free()));
+        assert!(net.settle(&places, net.triangles.len(), 0, &Progress::free()));
         assert_eq!(net.triangles, before);
     }
 
@@ -252,16 +253,31 @@ mod tests {
         side(&a, &b, &c)
     }
 
+    /// Two rows of points, 1 apart. A fan from the last upper point over the lower row, then one from the first lower
+    /// point over the upper row.
+    fn fans(count: u32) -> (Vec<[f64; 2]>, Vec<[u32; 3]>) {
+        let row = |y: f64| (0..count).map(move |k| [f64::from(k), y]);
+        let mut triangles: Vec<[u32; 3]> = (1..count - 1).map(|k| [k, k + 1, 2 * count - 1]).collect();
+        triangles.extend((count..2 * count - 1).map(|k| [0, k + 1, k]));
+        triangles.push([0, 1, 2 * count - 1]);
+        (row(0.0).chain(row(1.0)).collect(), triangles)
+    }
+
+    #[test]
+    fn a_long_fan_takes_more_flips_than_usual() {
+        let (places, triangles) = fans(2000);
+        let settled = |more: usize| {
+            let mut net = Triangulation::new(places.len(), triangles.clone(), |_, _| false);
+            net.settle(&places, triangles.len(), more, &Progress::free())
+        };
+        assert!(!settled(0) && settled(10_000_000));
+    }
+
     #[test]
     fn a_fan_over_a_row_is_turned_and_a_fixed_edge_is_not() {
-        let places: Vec<[f64; 2]> =
-            (0..20u8).map(|k| [f64::from(k), 0.0]).chain((0..20u8).map(|k| [f64::from(k), 1.0])).collect();
-        // A fan from the first point, then one to the upper row from the last point of the lower row.
-        let mut triangles: Vec<[u32; 3]> = (1..19).map(|k| [k, k + 1, 39]).collect();
-        triangles.extend((20..39).map(|k| [0, k + 1, k]));
-        triangles.push([0, 1, 39]);
+        let (places, triangles) = fans(20);
         let mut net = Triangulation::new(40, triangles.clone(), |_, _| false);
-        assert!(net.settle(&places, net.triangles.len(), &Progress::free()));
+        assert!(net.settle(&places, net.triangles.len(), 0, &Progress::free()));
         let longest = |net: &Triangulation| {
             let edge = |a: u32, b: u32| (places[a as usize][0] - places[b as usize][0]).abs();
             net.triangles
@@ -271,7 +287,7 @@ mod tests {
         };
         assert!(longest(&net) <= 1.0);
         let mut net = Triangulation::new(40, triangles, |a, b| (a.min(b), a.max(b)) == (0, 39));
-        assert!(net.settle(&places, net.triangles.len(), &Progress::free()));
+        assert!(net.settle(&places, net.triangles.len(), 0, &Progress::free()));
         assert!(longest(&net) == 19.0);
     }
 }
