@@ -37,9 +37,6 @@ const MOST: usize = 8_000_000;
 /// Distance in the chart that new points keep from a chord, as a share of the chord's length. The smaller one is used
 /// only where the larger one leaves no place.
 const OFF: [f64; 2] = [0.2, 0.02];
-/// Flips for each point to be inserted, in the triangles of the outline before that. They take a part of the time that
-/// the points take, which is far less than a triangulation of all points together.
-const TURNS_A_POINT: usize = 20;
 /// Triangles whose error is measured where no more points are inserted.
 const MEASURED: usize = 10_000;
 /// Share of the face's extent in (u, v) below which corners of a triangle never face apart on a sound surface.
@@ -152,7 +149,7 @@ fn filled(field: &Field, chart: &Outline, steps: &Progress) -> Result<Option<Fil
         let mut net = Triangulation::new(chart.len(), triangles, |_, _| false);
         let mut places = chart.uv.clone();
         places.reserve(inner.len());
-        if net.settle(&places, net.triangles().len(), TURNS_A_POINT * inner.len(), steps) {
+        if net.settle(&places, net.triangles().len(), inner.len(), steps) {
             inner.retain(|&p| {
                 steps.step();
                 places.push(p);
