@@ -1081,9 +1081,6 @@ class MeshScene:
     group_part (g,); welded (g,): a mesh without B-rep with more than two triangles at an edge
     folded: how many groups are not surely one convex body; curved_faces: how many faces may show an outline
     face_*, corner: as in `TrueSurfaces`
-    reports: of each part whether it has a B-rep, its faces, and the border edges, edges of more than two triangles,
-    edges between faces of opposite orientation, triangles without area, groups that are not closed, groups turned,
-    triangles, and edges of the source
     """
 
     mesh: MeshFacts
@@ -1105,7 +1102,9 @@ class MeshScene:
     face_place: Floats
     face_inward: Bools
     face_curved: Bools
-    reports: list[tuple[bool, int, list[int]]]
+    def reports(self) -> PartReports:
+        """What was counted in each part."""
+
     def walks(self) -> Walks:
         """Along the edges of the source."""
 
@@ -1116,6 +1115,20 @@ class MeshScene:
         self, groups: Groups, contact: tuple[float, float, float], deflection: float
     ) -> tuple[Floats, Ints, Ints, Ints, Bools, int]:
         """As in `hlr.scene.clash.Clashes`. contact: as in `Plan`; deflection: what the parts were meshed with."""
+
+class PartReports:
+    """Of each part whether it has a B-rep, its faces, and its counts.
+
+    counts: border edges, edges of more than two triangles, edges between faces of opposite orientation, triangles
+    without area, groups that are not closed, groups turned, triangles, edges of the source
+    """
+
+    def __len__(self) -> int: ...
+    def of(self, part: int) -> tuple[bool, int, list[int]]:
+        """Whether a part has a B-rep, its faces, and its counts."""
+
+    def suspects(self) -> list[int]:
+        """The numbers of parts of which anything was counted that may be a defect."""
 
 class ShadedModel:
     """A triangle mesh with normals and colours, for any number of pictures."""

@@ -33,7 +33,7 @@ def hiding(scene: Scene, looks: Mapping[str, Appearance]) -> list[Note]:
     """The remark that transparent parts hide others, where they may."""
     if not looks or len(scene.parts) < 2:
         return []
-    clear = [p.name for p in scene.parts if opacity_of(looks.get(p.name, Appearance())) < 1.0]
+    clear = [p.name for p in scene.parts.labels if opacity_of(looks.get(p.name, Appearance())) < 1.0]
     if not clear:
         return []
     which = f'Part "{clear[0]}" is transparent and hides' if len(clear) == 1 else f"{len(clear)} transparent parts hide"

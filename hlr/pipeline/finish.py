@@ -95,7 +95,7 @@ def finished(
             planner.revised(name, True, "one convex body, but rounded its faces overlap in the image")
     # With some parts chosen, a rule may be for the others.
     names = also_called(source)
-    parts = tuple([DrawnPart(p.name, p.color, p.transform, names.get(p.name, ())) for p in image.parts])
+    parts = tuple([DrawnPart(p.name, p.color, p.transform, names.get(p.name, ())) for p in image.parts.labels])
     unused = () if options.only or options.hide else unused_rules(style, parts)
     seconds = segments.found.seconds
     for name, steps in STEPS.items():

@@ -129,7 +129,7 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
         view=drawn_view(camera),
         scale=eye.scale / unit,
         pixels=pixels,
-        parts=tuple(DrawnPart(p.name, p.color, p.transform, names.get(p.name, ())) for p in scene.parts),
+        parts=tuple(DrawnPart(p.name, p.color, p.transform, names.get(p.name, ())) for p in scene.parts.labels),
         first_face=first_faces(scene),
         depth=depth,
         ids=ids,

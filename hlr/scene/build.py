@@ -15,11 +15,11 @@ from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
 from hlr.scene.clash import find_clashes, self_intersecting_parts
 from hlr.scene.creases import creases
-from hlr.scene.defects import defect_notes, part_reports
 from hlr.scene.duplicates import without_duplicates
 from hlr.scene.intersection_lines import intersection_lines
 from hlr.scene.needles import reliable_normals
 from hlr.scene.scene import Scene, TrueSurfaces
+from hlr.scene.scene_parts import scene_parts
 from hlr.scene.spindle_tori import self_intersecting_tori
 from hlr.scene.stitching import stitch_borders
 from hlr.scene.walks import crease_walks
@@ -64,7 +64,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
     plan.spent("intersection search", perf_counter() - begin, clash_tests=0 if met is None else met.tests)
     true, intersections = _true_surfaces(whole, found), None
     crossed = set() if met is None else self_intersecting_parts(met, group_part)
-    parts = part_reports(whole, doubled, found, mesh.offsets, drawn, crossed, meshed.surface_parts)
+    parts = scene_parts(whole, doubled, found, mesh.offsets, drawn, crossed, meshed.surface_parts)
     groups = groups.unsound(found.welded if met is None else met.through | found.welded)
 
     if len(found.loose):
@@ -109,7 +109,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         walks=walks,
         has_faces=brep & (tables.face_start[1:] > tables.face_start[:-1]),
         parts=parts,
-        notes=(*meshed.notes, *defect_notes(parts)),
+        notes=(*meshed.notes, *parts.notes()),
         true_surfaces=true,
         convex=len(group_part) == 1 and not found.folded,
         facets=facets,

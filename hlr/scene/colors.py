@@ -21,7 +21,7 @@ def corner_colors(scene: Geometry, looks: Mapping[str, Appearance]) -> tuple[Col
     paint = np.zeros((len(scene.triangles), 3), np.int32)
     # Triangles are sorted by part.
     bounds = np.searchsorted(scene.triangle_part, np.arange(len(scene.parts) + 1)).tolist()
-    for i, part in enumerate(scene.parts):
+    for i, part in enumerate(scene.parts.labels):
         a, b = bounds[i : i + 2]
         look = looks.get(part.name, Appearance())
         whole = look.whole or ((*part.color, 1.0) if part.color is not None else DEFAULT_COLOR)

@@ -8,8 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.common.types import Color, Floats, Ints
+from hlr.common.types import Floats, Ints
 from hlr.drawing.notes import Note
+from hlr.scene.scene_parts import SceneParts
 from hlr.source.model import Curves, Surfaces
 
 
@@ -68,25 +69,6 @@ class IntersectionCurves:
 
 
 @dataclass(frozen=True, slots=True)
-class ScenePart:
-    """A part's identity and what was found out about it.
-
-    open_edges: of faces outside all solids, which may be open as surface models are: edges with one face only
-    """
-
-    name: str
-    color: Color | None
-    transform: Floats
-    faces: int
-    edges: int
-    triangles: int
-    closed: bool
-    oriented: bool
-    defects: tuple[str, ...]
-    open_edges: int = 0
-
-
-@dataclass(frozen=True, slots=True)
 class Geometry:
     """All parts in one set of arrays: what a scene is made of, and an image of it.
 
@@ -122,7 +104,7 @@ class Geometry:
     groups: _kernel.Groups
     walks: _kernel.Walks
     has_faces: npt.NDArray[np.bool_]
-    parts: tuple[ScenePart, ...]
+    parts: SceneParts
     true_surfaces: TrueSurfaces | None = None
     convex: bool = False
     facets: Floats | None = None

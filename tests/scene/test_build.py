@@ -258,7 +258,7 @@ def test_parts_are_counted_by_what_they_are():
     with pytest.raises(ValueError, match="part"):
         tables.triangle_counts(np.array([2], np.int32))
     found = combine_parts([plain, plain]).tables.facts().scene()
-    assert (found.folded, found.curved_faces, len(found.reports)) == (0, 0, 2)
+    assert (found.folded, found.curved_faces, len(found.reports())) == (0, 0, 2)
     assert found.groups().meeting() == 2, "both stand in one place"
     far = part_of((mesh.vertices + 500.0, mesh.faces))
     assert combine_parts([plain, far]).tables.facts().scene().groups().meeting() == 0

@@ -26,8 +26,8 @@ from scene.crossings import (
 )
 
 from hlr.scene.build import build
-from hlr.scene.defects import MAX_NOTES
 from hlr.scene.scene import Scene
+from hlr.scene.scene_parts import MAX_NOTES
 from hlr.source import open_source
 from hlr.tables.line_classes import EdgeClass
 from support import meshes

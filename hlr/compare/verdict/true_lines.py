@@ -81,7 +81,7 @@ class TrueLines:
             kind,
             error,
             drawing.scale,
-            tuple(part.name for part in scene.parts),
+            tuple(part.name for part in scene.parts.labels),
         )
 
 

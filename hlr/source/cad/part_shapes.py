@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, NamedTuple, Protocol
 
 from hlr.common.types import Floats
@@ -88,13 +89,16 @@ def divided_one_by_one(
     return Division(pieces, matrices4(places), prototypes(distinct))
 
 
+@cache
+def _origin() -> Any:
+    """The placement of what has none: made where a shape is asked for without its own."""
+    from OCP.TopLoc import TopLoc_Location
+
+    return TopLoc_Location()
+
+
 class OcctShapes:
     """TopoDS_Shape."""
-
-    def __init__(self) -> None:
-        from OCP.TopLoc import TopLoc_Location
-
-        self._origin = TopLoc_Location()
 
     def is_null(self, shape: Any) -> bool:
         """As of `PartShapes`."""
@@ -118,7 +122,7 @@ class OcctShapes:
 
     def unplaced(self, shape: Any) -> Any:
         """As of `PartShapes`."""
-        return shape.Located(self._origin, False)
+        return shape.Located(_origin(), False)
 
     def pieces(self, shape: Any) -> list[tuple[Any, bool]]:
         """As of `PartShapes`."""

@@ -49,6 +49,9 @@ pub struct Turned {
 /// triangles without area, groups that are not closed, groups turned, triangles, edges of the source.
 pub type Report = [i64; 8];
 
+/// How many counts of a report, the first ones, are of what may be a defect.
+pub const DEFECTS: usize = 6;
+
 /// Per face of all parts: the placement of its surface in the model. Per triangle: its corners in (u, v).
 #[derive(Clone, Debug, Default)]
 pub struct Surfaces {

@@ -81,6 +81,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<parts::PartTables>()?;
     m.add_class::<mesh_scene::MeshFacts>()?;
     m.add_class::<mesh_scene::MeshScene>()?;
+    m.add_class::<mesh_scene::PartReports>()?;
     m.add_class::<preview::PictureLens>()?;
     m.add_class::<preview::PictureLight>()?;
     m.add_class::<preview::ShadedModel>()?;

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use numpy::PyArray3;
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 
 use super::clash::{Crossings, crossings};
@@ -11,7 +12,7 @@ use super::threads::{AT_ONCE, CHEAP, release_later, run};
 use super::view::{Flat, Rows, arrays, flat, matrices, rows};
 use super::walks::Walks;
 use hlr_mesh::facts::Facts;
-use hlr_mesh::scene::{Scene, scene};
+use hlr_mesh::scene::{DEFECTS, Report, Scene, scene};
 use hlr_mesh::tables::Tables;
 
 /// Edges of the mesh of all parts.
@@ -155,11 +156,31 @@ arrays! { MeshScene {
         Groups(self.scene.bodies.groups.clone())
     }
 
-    /// Per part: whether it has a B-rep, its faces, and its counts, as `Report` lists them.
-    #[getter]
-    fn reports(&self) -> Vec<(bool, i32, [i64; 8])> {
+    /// What was counted in each part.
+    fn reports(&self) -> PartReports {
         let faces = self.tables.face_start.windows(2).map(|w| w[1] - w[0]);
-        let of = |((&brep, faces), &counts): ((&bool, i32), &[i64; 8])| (brep, faces, counts);
-        self.tables.brep.iter().zip(faces).zip(&self.scene.reports).map(of).collect()
+        let of = |((&brep, faces), &counts): ((&bool, i32), &Report)| (brep, faces, counts);
+        PartReports(self.tables.brep.iter().zip(faces).zip(&self.scene.reports).map(of).collect())
+    }
+}
+
+/// Of each part whether it has a B-rep, its faces, and its counts.
+#[pyclass(frozen)]
+pub struct PartReports(Vec<(bool, i32, Report)>);
+
+#[pymethods]
+impl PartReports {
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether a part has a B-rep, its faces, and its counts.
+    fn of(&self, part: usize) -> PyResult<(bool, i32, Report)> {
+        self.0.get(part).copied().ok_or_else(|| PyIndexError::new_err("no such part"))
+    }
+
+    /// The numbers of parts of which anything was counted that may be a defect.
+    fn suspects(&self) -> Vec<usize> {
+        (0..self.0.len()).filter(|&part| self.0[part].2[..DEFECTS].iter().any(|&count| count != 0)).collect()
     }
 }

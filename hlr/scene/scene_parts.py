@@ -1,16 +1,20 @@
-"""Defects of parts, in words."""
+"""The parts of a scene, and their defects in words."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
-from hlr._kernel import MeshScene
-from hlr.common.types import Floats, Ints
+from hlr._kernel import MeshScene, PartReports
+from hlr.common.types import Color, Floats, Ints
 from hlr.drawing.notes import Note
-from hlr.scene.scene import ScenePart
-from hlr.source.part_meshes import PartMeshes
+from hlr.source.part_meshes import PartLabel, PartMeshes
+
+if TYPE_CHECKING:
+    from hlr.source.cad.parts import Part
 
 FLAT = 1e-7
 """What lies off a plane by no more than this share of its size lies in it."""
@@ -19,7 +23,89 @@ MAX_NOTES = 5
 """Defective parts with a note of their own; one more note has the number of all others."""
 
 
-def part_reports(
+@dataclass(frozen=True, slots=True)
+class ScenePart:
+    """A part's identity and what was found out about it.
+
+    open_edges: of faces outside all solids, which may be open as surface models are: edges with one face only
+    """
+
+    name: str
+    color: Color | None
+    transform: Floats
+    faces: int
+    edges: int
+    triangles: int
+    closed: bool
+    oriented: bool
+    defects: tuple[str, ...]
+    open_edges: int = 0
+
+
+class SceneParts(Sequence[ScenePart]):
+    """The parts of a scene; the record of one is made when it is asked for.
+
+    labels  name, colour and placement of each part
+    """
+
+    def __init__(
+        self,
+        labels: Sequence[PartLabel | Part],
+        reports: PartReports,
+        drawn: list[int] | None,
+        defects: Mapping[int, tuple[tuple[str, ...], int]],
+    ) -> None:
+        """reports: what the kernel counted; drawn: edges of parts without B-rep, None where there are none;
+        defects: by the number of the part, with its open edges.
+        """
+        self.labels = labels
+        self._reports, self._drawn, self._defects = reports, drawn, defects
+
+    def __len__(self) -> int:
+        return len(self.labels)
+
+    @overload
+    def __getitem__(self, index: int) -> ScenePart: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[ScenePart]: ...
+
+    def __getitem__(self, index: int | slice) -> ScenePart | list[ScenePart]:
+        if isinstance(index, slice):
+            return [self._part(i) for i in range(len(self))[index]]
+        return self._part(range(len(self))[index])
+
+    def notes(self) -> list[Note]:
+        """One note per defective part, MAX_NOTES at most, and one for all others; then the same for open surfaces."""
+        parts = [self._part(i) for i in self._defects]
+        bad = [p for p in parts if not _is_open_surface(p)]
+        out = [Note("defects", f'Part "{p.name}" is drawn as it is: {"; ".join(p.defects)}.') for p in bad[:MAX_NOTES]]
+        if len(bad) > MAX_NOTES:
+            more = len(bad) - MAX_NOTES
+            text = f"{more} more part{' has' if more == 1 else 's have'} defects: see hlr info."
+            out.append(Note("more-defects", text))
+        return out + _surface_notes([p for p in parts if _is_open_surface(p)])
+
+    def _part(self, i: int) -> ScenePart:
+        label = self.labels[i]
+        brep, faces, (border, _, turned, _, unclosed, _, triangles, edges) = self._reports.of(i)
+        own = 0 if self._drawn is None else self._drawn[i]
+        defects, open_edges = self._defects.get(i, ((), 0))
+        return ScenePart(
+            name=label.name,
+            color=label.color,
+            transform=label.transform,
+            faces=faces if brep else 0,
+            edges=edges if brep else own,
+            triangles=triangles,
+            closed=triangles > 0 and not border and not unclosed,
+            oriented=turned == 0,
+            defects=defects,
+            open_edges=open_edges,
+        )
+
+
+def scene_parts(
     whole: PartMeshes,
     doubled: list[int],
     found: MeshScene,
@@ -27,25 +113,25 @@ def part_reports(
     drawn: list[int] | None,
     crossed: Collection[int],
     surface_parts: Callable[[], Collection[str]],
-) -> tuple[ScenePart, ...]:
-    """One report per part: identity, counts and defects.
+) -> SceneParts:
+    """All parts with their defects.
 
     doubled: triangles already left out as duplicates; offsets: of the triangles at each mesh edge; drawn: edges of
     parts without B-rep, None where there are none; crossed: numbers of parts whose surfaces pass through one another;
     surface_parts: the names of parts that are faces outside all solids.
     """
-    reports = found.reports
-    none = [0] * len(reports)
-    own, bordering = drawn or none, none
+    reports = found.reports()
+    wrong = {*reports.suspects(), *crossed, *[i for i, count in enumerate(doubled) if count]}
+    found_in = {i: reports.of(i) for i in sorted(wrong)}
     named: Collection[str] = ()
-    if any([counts[0] for _, _, counts in reports]):
+    bordering = [0] * len(reports)
+    if any([counts[0] for _, _, counts in found_in.values()]):
         named = surface_parts()
         if whole.tables.brep_parts:
             bordering = _border_edges(found, offsets, len(reports))
-    out = []
-    for i, (label, (brep, faces, counts)) in enumerate(zip(whole.labels, reports, strict=True)):
-        border, crowded, turned, flat, unclosed, outside_in, triangles, edges = counts
-        of_surfaces, open_edges = label.name in named, 0
+    all_defects = {}
+    for i, (brep, _, (border, crowded, turned, flat, _, outside_in, _, _)) in found_in.items():
+        of_surfaces, open_edges = whole.labels[i].name in named, 0
         defects = []
         if doubled[i]:
             defects.append(_count(doubled[i], "duplicated triangle"))
@@ -64,32 +150,9 @@ def part_reports(
             defects.append("the solid is turned inside out" if brep else pieces)
         if i in crossed:
             defects.append("the surface passes through itself")
-        out.append(
-            ScenePart(
-                name=label.name,
-                color=label.color,
-                transform=label.transform,
-                faces=faces if brep else 0,
-                edges=edges if brep else own[i],
-                triangles=triangles,
-                closed=triangles > 0 and not border and not unclosed,
-                oriented=turned == 0,
-                defects=tuple(defects),
-                open_edges=open_edges,
-            )
-        )
-    return tuple(out)
-
-
-def defect_notes(parts: tuple[ScenePart, ...]) -> list[Note]:
-    """One note per defective part, MAX_NOTES at most, and one for all others; then the same for open surfaces."""
-    bad = [p for p in parts if p.defects and not _is_open_surface(p)]
-    out = [Note("defects", f'Part "{p.name}" is drawn as it is: {"; ".join(p.defects)}.') for p in bad[:MAX_NOTES]]
-    if len(bad) > MAX_NOTES:
-        more = len(bad) - MAX_NOTES
-        text = f"{more} more part{' has' if more == 1 else 's have'} defects: see hlr info."
-        out.append(Note("more-defects", text))
-    return out + _surface_notes([p for p in parts if _is_open_surface(p)])
+        if defects:
+            all_defects[i] = tuple(defects), open_edges
+    return SceneParts(whole.labels, reports, drawn, all_defects)
 
 
 def _is_open_surface(part: ScenePart) -> bool:
