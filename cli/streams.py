@@ -130,7 +130,7 @@ def result_only() -> Iterator[Output]:
     """Within this block nothing but the yielded Output can write to standard output."""
     if sys.stdout is not None:
         sys.stdout.flush()
-    encoding = "utf-8" if sys.stdout is None else sys.stdout.encoding
+    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"  # a text in memory has none
     kept = _duplicate(1)
     _send_to_errors(1)
     try:

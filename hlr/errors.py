@@ -5,6 +5,9 @@ The command line prints the message alone and exits with code 2.
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable
+
 LONGEST = 1000
 """Characters of a message: it may repeat what it was given, but not a whole array."""
 
@@ -24,7 +27,10 @@ class SourceError(HlrError):
 
 
 class OptionError(HlrError):
-    """An option outside its range, or two options that contradict one another."""
+    """An option outside its range, or two options that contradict one another.
+
+    Names of options that Python and the command line spell differently stand in `backticks` (`respelled`).
+    """
 
 
 class ViewError(HlrError):
@@ -45,6 +51,11 @@ class ClusterError(HlrError):
 
 class KernelError(HlrError):
     """A fault of hlr itself, in its kernel: worth a report. The command line ends with exit code 1."""
+
+
+def respelled(message: str, spell: Callable[[str], str]) -> str:
+    """A message with the options that it names in `backticks` spelled in another way."""
+    return re.sub("`([a-z_]+)`", lambda name: spell(name[1]), message)
 
 
 def counted(number: int, what: str, several: str = "") -> str:

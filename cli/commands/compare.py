@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -132,6 +133,11 @@ def compare(  # noqa: PLR0913 - one for each option of the command
     if against is not None and register != "auto":
         raise OptionError("--register is for two drawings: leave it out, FreeCAD draws elsewhere on paper")
     sides = [before] if after is None else [before, after]
+    for side in sides:
+        if os.path.isdir(side):
+            raise OptionError(
+                f"{side} is a folder: name a file in it; hlr batch --baseline FOLDER compares all drawings of a folder"
+            )
     targets = [_target(output) for output in outputs]
     check(targets)
     models = [side for side in sides if is_model(side)]

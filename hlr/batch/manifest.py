@@ -17,7 +17,7 @@ from hlr.batch.lines import line_of
 from hlr.batch.request import NAMES
 from hlr.batch.schema import KEYS
 from hlr.common.toml import parsed
-from hlr.errors import OptionError
+from hlr.errors import OptionError, respelled
 from hlr.tables.projection_methods import PROJECTION_METHODS
 from hlr.tables.writers import WRITERS, formats
 
@@ -179,4 +179,5 @@ def _error(file: Path, text: str, where: Where, message: str) -> OptionError:
     place = f"{file.name}, line {line}" if line else file.name
     own = where[len(_IN_PROJECT) :] if file.name == PROJECT else where
     key = ".".join(name for name in own if isinstance(name, str))
-    return OptionError(f"{place}{', ' + key if key else ''}: {message}")
+    # An option is named as a key of the file.
+    return OptionError(f"{place}{', ' + key if key else ''}: {respelled(message, str)}")

@@ -116,7 +116,7 @@ def _printed(
             raise OptionError("texts are for the fields of a template: give one, or leave them out")
         return Printed(room=room)
     if options.page is not None:
-        raise OptionError("a template has a size of its own: leave out page, or template")
+        raise OptionError("a template has a size of its own: leave out `page`, or `template`")
     if not isinstance(template, str | os.PathLike) or not os.fspath(template):
         raise OptionError(f"template needs the name of an SVG file, not {template!r}")
     read = read_page_template(Path(template))
@@ -140,7 +140,7 @@ def check_arranged(options: Options) -> None:
     """Raise OptionError for options that say something of a single view. options: checked"""
     usual = Options()
     if isinstance(options.style, Style) and options.style.part_colors == "fills":
-        raise OptionError("arranged views have lines alone: leave out part_colors, or let it colour the lines")
+        raise OptionError("arranged views have lines alone: leave out `part_colors`, or let it colour the lines")
     if barred := [name for name in OF_ONE_VIEW if getattr(options, name) != getattr(usual, name)]:
-        what = f"option{'s' if len(barred) > 1 else ''} {listed(barred, 'and')}"
-        raise OptionError(f"only a view by itself has {listed(barred, 'or')}: leave out the {what}, or arrange")
+        what = listed([f"`{name}`" for name in barred], "and")
+        raise OptionError(f"only a view by itself has {listed(barred, 'or')}: leave out {what}, or `arrange`")

@@ -64,20 +64,20 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
     if within is not None and not (is_finite(within) and within > 0.0):
         raise OptionError(f"within needs a positive number of seconds, not {typed_value(within)}")
     if options.see_through and options.report:
-        raise OptionError("report measures what all parts hide: leave it out, or see_through")
+        raise OptionError("a report measures what all parts hide: leave out `report`, or `see_through`")
     if options.section is not None:
         from hlr.request.section import checked_section
 
         options = replace(options, section=checked_section(options.section))
         for name in ("perspective", "report"):
             if options.section is not None and getattr(options, name):
-                raise OptionError(f"a section has no {name}: leave out {name}, or section")
+                raise OptionError(f"a section has no {name}: leave out `{name}`, or `section`")
     if not isinstance(options.whole, _SEQUENCES) or len(options.whole) > 0:
         from hlr.request.section import checked_whole
 
         options = replace(options, whole=checked_whole(options.whole))
         if options.section is None:
-            raise OptionError("whole is for the views of sections: give section as well, or leave it out")
+            raise OptionError("`whole` is for the views of sections: give `section` as well, or leave it out")
     if options.window is not None:
         _window(options.window)
     for name in ("only", "hide", "uncut"):
@@ -85,7 +85,7 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
         if isinstance(patterns, str) or not _is_strings(patterns):
             raise OptionError(f"{name} needs a list of names or patterns of parts, not {patterns!r}")
     if options.section is None and len(options.uncut) > 0:
-        raise OptionError("uncut is for parts of a section: give section as well, or leave it out")
+        raise OptionError("`uncut` is for parts of a section: give `section` as well, or leave it out")
     if options.var is not None and not isinstance(options.var, str):
         raise OptionError(f"var needs the name of a variable, not {options.var!r}")
     if options.parameters is not None:
@@ -118,11 +118,11 @@ def _with_size(options: Options) -> Options:
         if number != scale:
             options = replace(options, scale=number)
     if scale is not None and fit is not None:
-        raise OptionError("scale and fit contradict one another: give one of them")
+        raise OptionError("`scale` and `fit` contradict one another: give one of them")
     if isinstance(fit, str):
         _check_page(fit)
         if page is not None:
-            raise OptionError(f"page and fit both name a sheet, {page!r} and {fit!r}: give one of them")
+            raise OptionError(f"`page` and `fit` both name a sheet, {page!r} and {fit!r}: give one of them")
     elif fit is not None and (not _is_vector(fit, 2) or min(fit) < SMALLEST_FIT or max(fit) > LARGEST_FIT):
         raise OptionError(
             "fit needs a positive width and height in millimetres, such as 277x190, or a sheet such as A4, not "

@@ -308,7 +308,7 @@ def test_a_change_since_the_baseline_is_exit_code_3(hlr_batch):
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ("fit = 'A4'", "fit: only a view by itself has fit: leave out the option fit, or arrange."),
+        ("fit = 'A4'", "fit: only a view by itself has fit: leave out fit, or arrange."),
     ],
 )
 def test_what_an_arranged_page_cannot_have_is_refused_before_any_work(hlr_batch, keys, words):

@@ -155,7 +155,7 @@ def test_directions_are_checked_before_the_model_is_read(tmp_path, ask, views, o
 
 
 def test_scale_and_fit_contradict_in_python_too():
-    with pytest.raises(hlr.OptionError, match="scale and fit contradict"):
+    with pytest.raises(hlr.OptionError, match="`scale` and `fit` contradict"):
         hlr.draw(cube(), scale=2.0, fit=(10.0, 10.0))
 
 

@@ -161,14 +161,14 @@ def test_the_symbol_of_the_method(method, cone_first):
         (None, None, {}, "no method is called None"),
         ("first-angle", [], {}, "a page needs a view"),
         ("first-angle", ["front", "front"], {}, "the view front is given twice"),
-        ("first-angle", None, {"fit": "A4"}, "only a view by itself has fit: leave out the option fit, or arrange"),
+        ("first-angle", None, {"fit": "A4"}, "only a view by itself has fit: leave out `fit`, or `arrange`"),
         (
             "first-angle",
             None,
             {"style": {"part-colors": "fills"}},
-            "arranged views have lines alone: leave out part_colors",
+            "arranged views have lines alone: leave out `part_colors`",
         ),
-        ("first-angle", None, {"up": (0, 1, 0), "within": 2.0}, "leave out the options up and within"),
+        ("first-angle", None, {"up": (0, 1, 0), "within": 2.0}, "leave out `up` and `within`"),
         ("first-angle", None, {"page": (25, 25)}, "has no room for 4 views"),
     ],
 )

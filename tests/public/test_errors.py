@@ -157,7 +157,7 @@ WRONG = [
     ({"page": 5}, "page needs the name of a sheet"),
     ({"page": (15.0, 300.0)}, "a page of 15x300 mm cannot be drawn on"),
     ({"fit": "B4"}, "no page is called 'B4'"),
-    ({"fit": "A4", "page": "A3"}, "page and fit both name a sheet"),
+    ({"fit": "A4", "page": "A3"}, "`page` and `fit` both name a sheet"),
     ({"fit": 5}, "fit needs .* not 5"),
     ({"fit": (1.0,)}, "fit needs"),
     ({"fit": (100.0, 100.0, 100.0)}, "fit needs"),

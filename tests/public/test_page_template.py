@@ -136,7 +136,7 @@ def test_what_is_no_template_is_refused(template, changes, words):
     ("options", "words"),
     [
         ({"texts": {"NAME": "x"}}, "sheet.svg has no field 'NAME': its fields are TITLE and FC-SC"),
-        ({"options": hlr.Options(page="A3")}, "a template has a size of its own: leave out page, or template"),
+        ({"options": hlr.Options(page="A3")}, "a template has a size of its own: leave out `page`, or `template`"),
         ({"room": (0, 0, 400, 100)}, "the room 0,0,400,100 leads out of a page of 297 x 210 mm"),
         ({"room": (50.0, 0.0, 20.0, 100.0)}, "millimetres, such as 20,60,287,200, not 50,0,20,100"),
         ({"room": "A4"}, "room needs two corners in millimetres"),

@@ -161,7 +161,7 @@ def test_one_drawing_is_no_view_and_section(model):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"whole": ["left"]}, "whole is for the views of sections: give section as well, or leave it out"),
+        ({"whole": ["left"]}, "`whole` is for the views of sections: give `section` as well, or leave it out"),
         ({"section": {"left": 5}, "whole": ["top"]}, "whole top is none of the sections, left: leave it out"),
         ({"section": {"left": 5}, "whole": 7}, r'whole needs a list of views, such as \["left"\], not 7'),
         ({"section": {"left": 5}, "whole": "lft"}, "whole: no view is called 'lft'"),

@@ -82,8 +82,8 @@ def test_a_section_of_no_view_is_refused(view):
 @pytest.mark.parametrize(
     ("other", "message"),
     [
-        ({"perspective": hlr.Perspective()}, "a section has no perspective: leave out perspective, or section"),
-        ({"report": True}, "a section has no report: leave out report, or section"),
+        ({"perspective": hlr.Perspective()}, "a section has no perspective: leave out `perspective`, or `section`"),
+        ({"report": True}, "a section has no report: leave out `report`, or `section`"),
         ({"uncut": "bolt"}, "uncut needs a list of names or patterns of parts"),
     ],
 )
@@ -93,7 +93,7 @@ def test_what_a_section_cannot_have_is_refused(other, message):
 
 
 def test_parts_are_left_whole_in_sections_only():
-    with pytest.raises(hlr.OptionError, match="uncut is for parts of a section: give section as well"):
+    with pytest.raises(hlr.OptionError, match="`uncut` is for parts of a section: give `section` as well"):
         checked(hlr.Options(uncut=("bolt",)))
 
 

@@ -1,0 +1,52 @@
+"""Messages spell options as they are typed, in Python as Python does, and in a manifest as its keys."""
+
+from pathlib import Path
+
+import pytest
+
+import hlr
+from hlr.errors import respelled
+
+BOX = Path(__file__).parents[1] / "data" / "freecad" / "box.step"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--see-through", "--report"], "a report measures what all parts hide: leave out --report, or --see-through."),
+        (["--page", "A4", "--fit", "A3"], "--page and --fit both name a sheet, 'A4' and 'A3': give one of them."),
+        (["--section", "front", "--perspective"], "leave out --perspective, or --section."),
+        (["--arrange", "first-angle", "--fill"], "only a view by itself has fill: leave out --fill, or --arrange."),
+    ],
+)
+def test_on_the_command_line(hlr_real, arguments, message):
+    done = hlr_real("draw", BOX, *arguments, "-o", "a.svg")
+    assert (done.code, done.out) == (2, "")
+    assert done.err.endswith(f"{message}\n") and "`" not in done.err
+
+
+def test_in_python():
+    with pytest.raises(hlr.OptionError, match="leave out `report`, or `see_through`"):
+        hlr.draw(BOX, see_through=True, report=True)
+
+
+def test_in_a_manifest(hlr_real):
+    Path("box.step").write_bytes(BOX.read_bytes())
+    Path("hlr.toml").write_text('files = ["*.step"]\nfit = "A3"\npage = "A4"\n')
+    done = hlr_real("batch")
+    assert done.code == 2
+    assert "hlr.toml, line 3, page: page and fit both name a sheet" in done.err
+
+
+def test_only_whole_names_are_spelled_anew():
+    assert respelled("`a_b` and `c`, not ` d` or `E`", str.upper) == "A_B and C, not ` d` or `E`"
+
+
+def test_a_comparison_of_folders_names_the_command_for_it(hlr_real, tmp_path):
+    (tmp_path / "old").mkdir()
+    for sides in (("old", BOX), (BOX, "old"), ("old", "old")):
+        done = hlr_real("compare", *sides)
+        assert (done.code, done.out) == (2, "")
+        assert done.err == (
+            "hlr: old is a folder: name a file in it; hlr batch --baseline FOLDER compares all drawings of a folder.\n"
+        )
