@@ -14,6 +14,7 @@ import math
 import random
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import cadquery as cq
@@ -37,6 +38,7 @@ class Case:
     direction: tuple[float, float, float]
 
 
+@lru_cache(maxsize=64)
 def case(number: int) -> Case | None:
     """The case with this number; None where OpenCASCADE cannot make the part, or makes one that is not valid."""
     r = random.Random(number)

@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import random
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import cadquery as cq
@@ -85,6 +86,7 @@ def elliptic(r: random.Random) -> Any:
 BODIES = (box, rounded_box, cylinder, cone, loft, elliptic)
 
 
+@lru_cache(maxsize=64)
 def pair(number: int) -> Pair | None:
     """The pair with this number; None where the bodies do not cross, or OpenCASCADE finds no common volume."""
     r = random.Random(number)

@@ -9,11 +9,12 @@ from fuzz.parts import KINDS, Case, broken, case
 import hlr
 from support.at_size import AT_SIZE
 
-NUMBERS = [number for number in range(14) if case(number) is not None]
+NUMBERS = range(14)
 
 
 def test_all_kinds_of_parts_and_views_are_met():
-    found = [case(number) for number in range(60)]
+    found = [case(number) for number in range(30)]
+    assert sum(found[number] is not None for number in NUMBERS) > 12
     assert {of.kind for of in found if of is not None} == set(KINDS)
     along = [sorted(np.abs(of.direction) > 1e-9) for of in found if of is not None]
     assert [False, False, True] in along and [True, True, True] in along
@@ -23,7 +24,8 @@ def test_all_kinds_of_parts_and_views_are_met():
 @pytest.mark.parametrize("number", NUMBERS)
 def test_the_promise_is_kept(number):
     found = case(number)
-    assert found is not None
+    if found is None:
+        return  # how many there are at least, the first test says
     # Errors of outlines may be those of the search.
     assert set(broken(found, 0.05)) <= {"outlines"}
 

@@ -10,19 +10,20 @@ from hlr.scene import build
 
 CONTACT = 2.5
 """Accuracies: less deep than that, surfaces touch."""
-NUMBERS = [number for number in range(24) if pair(number) is not None]
+NUMBERS = range(24)
 
 
 def test_pairs_cross_little_and_much():
     found = [of.depth for number in NUMBERS if (of := pair(number)) is not None]
-    assert len(found) > 12 and min(found) < 0.1 and max(found) > 1.0
+    assert len(found) > 16 and min(found) < 0.1 and max(found) > 1.0
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("number", NUMBERS)
 def test_sections_have_lines_and_lines_sections(number):
     of = pair(number)
-    assert of is not None
+    if of is None:
+        return  # how many there are at least, the first test says
     told = compared(of, 0.05)
     assert told.wrong < 1.0 and told.off < 0.03
     # The mean depth of a common volume is about half of the greatest.
