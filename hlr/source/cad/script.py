@@ -2,7 +2,8 @@
 
 The file runs with the caller's rights. As in CQ-editor and cq-cli the script finds
 `show_object(obj, name=None, options=None)` and `debug(obj)`, and its `__name__` is "__cq_main__". `show(...)` is there
-for scripts written for viewers. The first of these that exists is drawn:
+for scripts written for viewers, whether they import it or not (`hlr.source.cad.viewers`). The first of these that
+exists is drawn:
 
 1. the variable that the caller names;
 2. all objects that the script shows;
@@ -25,17 +26,15 @@ from hlr.drawing.notes import Note
 from hlr.errors import OptionError, SourceError
 from hlr.request.options import Parameter
 from hlr.source.cad.brep_source import BrepSource
-from hlr.source.cad.colors import ColorOpacity, color_from_options
+from hlr.source.cad.colors import ColorOpacity
 from hlr.source.cad.objects import is_shape_like, to_leaves
 from hlr.source.cad.occt_import import import_failure_message, load_occt
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.script_parameters import compiled
 from hlr.source.cad.source_builder import build_source
+from hlr.source.cad.viewers import Showing, Shown, stand_ins
 
 _RESULT_VARIABLE = "result"
-
-Shown = tuple[Any, str, ColorOpacity]
-"""An object, the name it is shown under or "", and its colour and opacity."""
 
 _NO_COLOR: ColorOpacity = (None, 1.0)
 
@@ -51,18 +50,23 @@ def open_script(path: Path, var: str | None = None, parameters: Mapping[str, Par
     """
     # The script runs in its own folder, where a relative path would mean another file.
     path = path.absolute()
-    shown: list[Shown] = []
-    values = _run(path, shown, parameters or {})
+    showing = Showing()
+    values = _run(path, showing, parameters or {})
     load_occt()
-    chosen, why = _objects_to_draw(path, shown, values, var)
+    chosen, why = _objects_to_draw(path, showing.shown, values, var)
     leaves: list[Leaf] = []
+    left_out: dict[str, SourceError] = {}
     for thing, name, (color, opacity) in chosen:
         try:
             leaves.extend(to_leaves(thing, name or path.stem, color, opacity))
         except SourceError as error:
-            raise SourceError(f"{path.name} shows something that is no shape: {error}") from None
+            left_out[type(thing).__name__] = error
+    if left_out and not leaves:
+        raise SourceError(f"{path.name} shows something that is no shape: {next(iter(left_out.values()))}")
     if not leaves:
         raise SourceError(_nothing_shown(path, values))
+    if left_out:
+        why += f", without what is no shape ({', '.join(left_out)})"
     return build_source(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}.")])
 
 
@@ -140,27 +144,20 @@ class _Variables(dict[str, Any]):
         super().__setitem__(name, value)
 
 
-def _run(path: Path, shown: list[Shown], parameters: Mapping[str, Parameter]) -> dict[str, Any]:
-    def show_object(obj: Any, name: str | None = None, options: Any = None, *_: Any, **more: Any) -> None:
-        shown.append((obj, str(name or ""), color_from_options(options if isinstance(options, dict) else more)))
+def _ignore(*_: Any, **__: Any) -> None: ...
 
-    def show(*objects: Any, names: Any = (), **_: Any) -> None:
-        given_names = list(names or ())
-        for i, obj in enumerate(objects):
-            shown.append((obj, str(given_names[i]) if i < len(given_names) else "", _NO_COLOR))
 
-    def ignore(*_: Any, **__: Any) -> None: ...
-
+def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter]) -> dict[str, Any]:
     values = _Variables(
         {
             "__name__": "__cq_main__",
             "__file__": str(path.resolve()),
             "__builtins__": __builtins__,
-            "show_object": show_object,
-            "show": show,
-            "show_all": ignore,
-            "debug": ignore,
-            "log": ignore,
+            "show_object": showing.show_object,
+            "show": showing.show,
+            "show_all": _ignore,
+            "debug": _ignore,
+            "log": _ignore,
         }
     )
     folder, working_folder = path.resolve().parent, _working_folder()
@@ -169,14 +166,15 @@ def _run(path: Path, shown: list[Shown], parameters: Mapping[str, Parameter]) ->
     sys.argv = [str(path)]
     try:
         os.chdir(folder)
-        exec(compiled(path, parameters), values)
+        with stand_ins(showing):
+            exec(compiled(path, parameters), values)
     except OptionError:
         raise
     except SyntaxError as error:
         where = "" if error.lineno is None else f", line {error.lineno}"
         raise SourceError(f"{path.name}{where}: SyntaxError: {error.msg}.") from None
     except SystemExit as error:
-        if error.code not in (None, 0) and not shown:
+        if error.code not in (None, 0) and not showing.shown:
             raise SourceError(f"{path.name} left with exit code {error.code}, and had shown nothing.") from None
     except KeyboardInterrupt:
         raise
