@@ -71,8 +71,29 @@ def test_all_else_of_a_viewer_does_nothing(shown):
         "ocp_vscode.show(ball, names=['b'], reset_camera=Camera.RESET)\n"
     )
     assert looks == {"b": None}
-    looks, why = shown("from ocp_vscode import *\nshow_all()\nsave_screenshot('a.png')\n")
-    assert looks == {"model": None} and 'the variable "ball" is drawn, the last solid' in why
+    assert list(shown("from ocp_vscode import *\nsave_screenshot('a.png')\nshow(ball, names=['b'])\n")[0]) == ["b"]
+
+
+def test_show_all_shows_the_variables_with_solids_each_once(shown):
+    text = "flat = cq.Workplane().rect(1, 1)\nsame = box\nshow_all({})\n"
+    assert shown(text.format("")) == (
+        {"box": None, "ball": None},
+        "model.py: all that it shows is drawn, 2 objects.",
+    )
+    assert list(shown("from ocp_vscode import *\nshow(ball)\n" + text.format(""))[0]) == ["box", "ball"]
+    assert list(shown(text.format("exclude=['ball']"))[0]) == ["box"]
+    assert list(shown(text.format("include=['ball']"))[0]) == ["ball"]
+    # What is assigned later is not shown.
+    assert list(shown(text.format("") + "more = cq.Workplane().box(9, 9, 9)\n")[0]) == ["box", "ball"]
+
+
+def test_names_that_cq_editor_has_without_an_import(tmp_path):
+    text = "def made():\n    return cq.Workplane().box(1, 1, 1)\nshow_object(made(), 'a', rand_color(0.5))\n"
+    (tmp_path / "model.py").write_text(text)
+    assert open_source(tmp_path / "model.py").names() == ["a"]
+    (tmp_path / "model.py").write_text("show_object(qc)\n")
+    with pytest.raises(SourceError, match="name 'qc' is not defined"):
+        open_source(tmp_path / "model.py")
 
 
 def test_cadquery_opens_no_window(shown):

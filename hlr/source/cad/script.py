@@ -19,6 +19,7 @@ import os
 import sys
 import traceback
 from collections.abc import Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -114,6 +115,17 @@ def _shapes(values: dict[str, Any]) -> dict[str, Any]:
     return {name: thing for name, thing in values.items() if not name.startswith("_") and _is_shape(thing)}
 
 
+def _most_solid(values: dict[str, Any]) -> dict[str, Any]:
+    """Of the variables that are shapes those with solids, else those with faces, else all; each object once."""
+    found: dict[int, list[str]] = {}
+    for name, thing in _shapes(values).items():
+        found.setdefault(_rank(thing), []).append(name)
+    once: dict[int, str] = {}
+    for name in found[min(found)] if found else ():
+        once.setdefault(id(values[name]), name)
+    return {name: values[name] for name in once.values()}
+
+
 def _is_shape(value: Any) -> bool:
     try:
         return is_shape_like(value)
@@ -143,6 +155,15 @@ class _Variables(dict[str, Any]):
         self.pop(name, None)
         super().__setitem__(name, value)
 
+    def __missing__(self, name: str) -> Any:
+        """CadQuery under the name that it has in CQ-editor without an import."""
+        if name != "cq":
+            raise KeyError(name)
+        try:
+            return import_module("cadquery")
+        except ModuleNotFoundError:
+            raise KeyError(name) from None
+
 
 def _ignore(*_: Any, **__: Any) -> None: ...
 
@@ -155,11 +176,13 @@ def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter]) -> d
             "__builtins__": __builtins__,
             "show_object": showing.show_object,
             "show": showing.show,
-            "show_all": _ignore,
+            "show_all": showing.show_all,
             "debug": _ignore,
             "log": _ignore,
+            "rand_color": lambda *_, **__: {},  # of CQ-editor: no two drawings would be alike
         }
     )
+    showing.drawable = lambda: _most_solid(values)
     folder, working_folder = path.resolve().parent, _working_folder()
     saved_path, saved_arguments = list(sys.path), sys.argv
     sys.path.insert(0, str(folder))

@@ -45,10 +45,14 @@ VIEWERS: dict[str, tuple[str, ...]] = {
 
 
 class Showing:
-    """What a script shows, in the order of its calls: `shown`."""
+    """What a script shows, in the order of its calls: `shown`.
+
+    drawable: gives the variables of the script that can be drawn
+    """
 
     def __init__(self) -> None:
         self.shown: list[Shown] = []
+        self.drawable: Callable[[], Mapping[str, Any]] = dict
         self._pushed: list[Shown] = []
 
     def show_object(self, obj: Any, name: str | None = None, options: Any = None, *_: Any, **more: Any) -> None:
@@ -66,6 +70,13 @@ class Showing:
     def reset_show(self, *_: Any, **__: Any) -> None:
         """Of viewers: forget what was shown."""
         self.shown.clear()
+
+    def show_all(self, *_: Any, include: Any = None, exclude: Any = (), **__: Any) -> None:
+        """As of viewers: the script's variables, under their names, in place of what was shown before."""
+        self.reset_show()
+        for name, obj in self.drawable().items():
+            if (not include or name in include) and name not in (exclude or ()):
+                self.shown.append((obj, name, (None, 1.0)))
 
     def push_object(self, obj: Any, name: str | None = None, color: Any = None, alpha: Any = None, **_: Any) -> None:
         """Of viewers: to be shown by `show_objects`."""
@@ -88,6 +99,7 @@ class Showing:
             "show_object": self._show_object_of_viewer,
             "push_object": self.push_object,
             "show_objects": self.show_objects,
+            "show_all": self.show_all,
             "reset_show": self.reset_show,
             "show_clear": self.reset_show,
             "style": lambda obj, *_, **__: obj,
