@@ -68,7 +68,7 @@ def test_a_template_with_a_title(hlr_real, tmp_path):
     [
         ((STEP, "--arrange", "fourth-angle"), "'fourth-angle' is not one of 'first-angle', 'third-angle'"),
         ((STEP, "--arrange", "first-angle", "--explain"), "leave out --explain, or --arrange"),
-        ((STEP, "--arrange", "first-angle", "--window", "0,0,9,9"), "leave out the option window"),
+        ((STEP, "--arrange", "first-angle", "--window", "0,0,9,9"), "leave out --window, or --arrange"),
         ((HOUSING, "--arrange", "first-angle", "--all-pages"), "leave out --arrange"),
         ((HOUSING, "--arrange", "first-angle", "--page", "Page"), "leave out --arrange"),
         ((STEP, "--arrange", "first-angle", "--template", "none.svg"), "none.svg does not exist"),
