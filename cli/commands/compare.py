@@ -136,7 +136,8 @@ def compare(  # noqa: PLR0913 - one for each option of the command
     for side in sides:
         if os.path.isdir(side):
             raise OptionError(
-                f"{side} is a folder: name a file in it; hlr batch --baseline FOLDER compares all drawings of a folder"
+                f"{side} is a folder: name a file in it; to compare all drawings of a folder with new ones, draw their "
+                "models with hlr batch MODELS --baseline FOLDER"
             )
     targets = [_target(output) for output in outputs]
     check(targets)

@@ -108,8 +108,8 @@ def _page_options(options: Options) -> Options:
     usual = Options()
     given = [name for name in Options.__dataclass_fields__ if getattr(options, name) != getattr(usual, name)]
     if barred := [name for name in given if name not in FREE]:
-        what = f"option{'s' if len(barred) > 1 else ''} {listed(barred, 'and')}"
-        raise OptionError(f"a page of a document is drawn as it is: leave out the {what}")
+        what = listed([f"`{name}`" for name in barred], "and")
+        raise OptionError(f"a page of a document is drawn as it is: leave out {what}")
     return checked(options)
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -42,7 +42,7 @@ class ScenePart:
     open_edges: int = 0
 
 
-class SceneParts(Sequence[ScenePart]):
+class SceneParts:
     """The parts of a scene; the record of one is made when it is asked for.
 
     labels  name, colour and placement of each part
@@ -64,29 +64,10 @@ class SceneParts(Sequence[ScenePart]):
     def __len__(self) -> int:
         return len(self.labels)
 
-    @overload
-    def __getitem__(self, index: int) -> ScenePart: ...
+    def __iter__(self) -> Iterator[ScenePart]:
+        return map(self.__getitem__, range(len(self)))
 
-    @overload
-    def __getitem__(self, index: slice) -> list[ScenePart]: ...
-
-    def __getitem__(self, index: int | slice) -> ScenePart | list[ScenePart]:
-        if isinstance(index, slice):
-            return [self._part(i) for i in range(len(self))[index]]
-        return self._part(range(len(self))[index])
-
-    def notes(self) -> list[Note]:
-        """One note per defective part, MAX_NOTES at most, and one for all others; then the same for open surfaces."""
-        parts = [self._part(i) for i in self._defects]
-        bad = [p for p in parts if not _is_open_surface(p)]
-        out = [Note("defects", f'Part "{p.name}" is drawn as it is: {"; ".join(p.defects)}.') for p in bad[:MAX_NOTES]]
-        if len(bad) > MAX_NOTES:
-            more = len(bad) - MAX_NOTES
-            text = f"{more} more part{' has' if more == 1 else 's have'} defects: see hlr info."
-            out.append(Note("more-defects", text))
-        return out + _surface_notes([p for p in parts if _is_open_surface(p)])
-
-    def _part(self, i: int) -> ScenePart:
+    def __getitem__(self, i: int) -> ScenePart:
         label = self.labels[i]
         brep, faces, (border, _, turned, _, unclosed, _, triangles, edges) = self._reports.of(i)
         own = 0 if self._drawn is None else self._drawn[i]
@@ -103,6 +84,17 @@ class SceneParts(Sequence[ScenePart]):
             defects=defects,
             open_edges=open_edges,
         )
+
+    def notes(self) -> list[Note]:
+        """One note per defective part, MAX_NOTES at most, and one for all others; then the same for open surfaces."""
+        parts = [self[i] for i in self._defects]
+        bad = [p for p in parts if not _is_open_surface(p)]
+        out = [Note("defects", f'Part "{p.name}" is drawn as it is: {"; ".join(p.defects)}.') for p in bad[:MAX_NOTES]]
+        if len(bad) > MAX_NOTES:
+            more = len(bad) - MAX_NOTES
+            text = f"{more} more part{' has' if more == 1 else 's have'} defects: see hlr info."
+            out.append(Note("more-defects", text))
+        return out + _surface_notes([p for p in parts if _is_open_surface(p)])
 
 
 def scene_parts(
@@ -122,16 +114,16 @@ def scene_parts(
     """
     reports = found.reports()
     wrong = {*reports.suspects(), *crossed, *[i for i, count in enumerate(doubled) if count]}
-    found_in = {i: reports.of(i) for i in sorted(wrong)}
-    named: Collection[str] = ()
+    counted = {i: reports.of(i) for i in sorted(wrong)}
+    of_faces: Collection[str] = ()
     bordering = [0] * len(reports)
-    if any([counts[0] for _, _, counts in found_in.values()]):
-        named = surface_parts()
+    if any([counts[0] for _, _, counts in counted.values()]):
+        of_faces = surface_parts()
         if whole.tables.brep_parts:
             bordering = _border_edges(found, offsets, len(reports))
-    all_defects = {}
-    for i, (brep, _, (border, crowded, turned, flat, _, outside_in, _, _)) in found_in.items():
-        of_surfaces, open_edges = whole.labels[i].name in named, 0
+    defects_of = {}
+    for i, (brep, _, (border, crowded, turned, flat, _, outside_in, _, _)) in counted.items():
+        of_surfaces, open_edges = whole.labels[i].name in of_faces, 0
         defects = []
         if doubled[i]:
             defects.append(_count(doubled[i], "duplicated triangle"))
@@ -151,8 +143,8 @@ def scene_parts(
         if i in crossed:
             defects.append("the surface passes through itself")
         if defects:
-            all_defects[i] = tuple(defects), open_edges
-    return SceneParts(whole.labels, reports, drawn, all_defects)
+            defects_of[i] = tuple(defects), open_edges
+    return SceneParts(whole.labels, reports, drawn, defects_of)
 
 
 def _is_open_surface(part: ScenePart) -> bool:

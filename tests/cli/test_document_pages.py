@@ -50,9 +50,9 @@ def test_a_sheet_of_paper_is_still_one(hlr_real, tmp_path):
         ((HOUSING, "--page", "Page", "--view", "top"), "leave out --view"),
         (
             (HOUSING, "--page", "Page", "--scale", "2"),
-            "a page of a document is drawn as it is: leave out the option scale",
+            "a page of a document is drawn as it is: leave out --scale",
         ),
-        ((HOUSING, "--all-pages", "--page", "A4"), "leave out the option page"),
+        ((HOUSING, "--all-pages", "--page", "A4"), "leave out --page"),
         (
             (STEP, "--all-pages"),
             "only FreeCAD documents (.FCStd) have pages, and as1-oc-214.stp is none: leave --all-pages out",

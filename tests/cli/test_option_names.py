@@ -1,5 +1,7 @@
 """Messages spell options as they are typed, in Python as Python does, and in a manifest as its keys."""
 
+from contextlib import redirect_stdout
+from io import StringIO
 from pathlib import Path
 
 import pytest
@@ -48,5 +50,16 @@ def test_a_comparison_of_folders_names_the_command_for_it(hlr_real, tmp_path):
         done = hlr_real("compare", *sides)
         assert (done.code, done.out) == (2, "")
         assert done.err == (
-            "hlr: old is a folder: name a file in it; hlr batch --baseline FOLDER compares all drawings of a folder.\n"
+            "hlr: old is a folder: name a file in it; to compare all drawings of a folder with new ones, draw their "
+            "models with hlr batch MODELS --baseline FOLDER.\n"
         )
+
+
+def test_a_text_in_memory_takes_the_result(tmp_path, monkeypatch):
+    from hlr.cli import main
+
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "box.step").write_bytes(BOX.read_bytes())
+    with redirect_stdout(StringIO()), pytest.raises(SystemExit) as left:
+        main(["compare", "box.step", "box.step"])
+    assert left.value.code == 0

@@ -168,7 +168,7 @@ def test_a_view_may_be_drawn_whole_besides_its_sections(draw, tmp_path):
 def test_pages_of_documents_have_their_own_sections(draw):
     done = draw(HOUSING, "--page", "Page", "--section", "front")
     assert done.code == 2
-    assert "a page of a document is drawn as it is: leave out the option section" in done.err
+    assert "a page of a document is drawn as it is: leave out --section" in done.err
     assert draw(HOUSING, "--section", "front", "-o", "a.svg").code == 0
 
 

@@ -60,7 +60,7 @@ def test_two_drawings_leave_no_choice():
 
 def test_a_page_leaves_no_choice():
     document = Path(__file__).parents[1] / "data" / "housing_body.FCStd"
-    with pytest.raises(OptionError, match="a page of a document is drawn as it is: leave out the option only"):
+    with pytest.raises(OptionError, match="a page of a document is drawn as it is: leave out `only`"):
         compare(document, document, page="Page", only=["a"])
 
 

@@ -13,7 +13,7 @@ NUMBERS = range(14)
 
 
 def test_all_kinds_of_parts_and_views_are_met():
-    found = [case(number) for number in range(30)]
+    found = [case(number) for number in range(60)]
     assert sum(found[number] is not None for number in NUMBERS) > 12
     assert {of.kind for of in found if of is not None} == set(KINDS)
     along = [sorted(np.abs(of.direction) > 1e-9) for of in found if of is not None]

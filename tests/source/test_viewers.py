@@ -42,6 +42,7 @@ def test_show_replaces_what_was_shown_and_show_object_adds_to_it(shown):
     text = "from ocp_vscode import *\nshow(box)\nshow(ball, names='a')\nshow_object(box, name='b')\n"
     assert shown(text) == ({"a": None, "b": None}, "model.py: all that it shows is drawn, 2 objects.")
     assert list(shown(text + "reset_show()\npush_object(box, 'c')\nshow_objects()\n")[0]) == ["c"]
+    assert list(shown(text + "show_object(ball, 'c', None, None, clear=True)\n")[0]) == ["c"]
     # Without an import as well.
     assert list(shown("show(box)\nshow(ball, names=['a'])\n")[0]) == ["a"]
 

@@ -155,14 +155,12 @@ class _Variables(dict[str, Any]):
         self.pop(name, None)
         super().__setitem__(name, value)
 
-    def __missing__(self, name: str) -> Any:
-        """CadQuery under the name that it has in CQ-editor without an import."""
-        if name != "cq":
-            raise KeyError(name)
-        try:
-            return import_module("cadquery")
-        except ModuleNotFoundError:
-            raise KeyError(name) from None
+
+class _CadQuery:
+    """CadQuery under the name that it has in CQ-editor without an import; it is imported where a script uses it."""
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(import_module("cadquery"), name)
 
 
 def _ignore(*_: Any, **__: Any) -> None: ...
@@ -179,6 +177,7 @@ def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter]) -> d
             "show_all": showing.show_all,
             "debug": _ignore,
             "log": _ignore,
+            "cq": _CadQuery(),
             "rand_color": lambda *_, **__: {},  # of CQ-editor: no two drawings would be alike
         }
     )

@@ -21,27 +21,27 @@ Shown = tuple[Any, str, ColorOpacity]
 """An object, the name it is shown under or "", and its colour and opacity."""
 
 VIEWERS: dict[str, tuple[str, ...]] = {
-    # What `from ocp_vscode import *` gives, by its documentation.
-    "ocp_vscode": (
-        *("AnalysisTool", "Animation", "BaseColorMap", "Camera", "Collapse", "ColorMap", "GoldenRatioColormap"),
-        *("ImageFace", "ListedColorMap", "MessageType", "Render", "SeededColormap", "SegmentedColorMap"),
-        *("StudioBackground", "StudioEnvironment", "StudioTextureMapping", "StudioToneMapping", "UiTab"),
-        *("VSCodeComms", "camera_keep_warning", "check_deprecated", "combined_config", "comms_warning", "default"),
-        *("find_and_set_port", "get_colormap", "get_default", "get_defaults", "get_host", "get_port", "hex_to_rgb"),
-        *("hsv_mapper", "ignore_camera_warnings", "is_pytest", "listener", "matplotlib_mapper", "none_filter"),
-        *("port_check", "push_object", "random_rgb_mapper", "remove_object", "reset_defaults", "reset_show"),
-        *("save_screenshot", "select_edge", "select_edges", "select_face", "select_faces", "select_vertex"),
-        *("select_vertices", "send_backend", "send_command", "send_config", "send_data", "set_colormap"),
-        *("set_defaults", "set_port", "set_viewer_config", "show", "show_all", "show_clear", "show_object"),
-        *("show_objects", "status", "unset_colormap", "web_to_rgb", "workspace_config"),
-    ),
-    "jupyter_cadquery": ("show", "show_object", "show_all", "set_defaults", "open_viewer", "close_viewer"),
-    "cq_vscode": ("show", "show_object", "show_all", "set_defaults", "reset_show"),
-    "yacv_server": ("show", "show_object", "show_all", "clear", "remove", "export_all"),
-    "cq_server": ("ui",),
-    "cadquery.vis": ("show", "show_object", "style", "ctrlPts"),
+    name: tuple(given.split())
+    for name, given in {
+        "ocp_vscode": """
+            AnalysisTool Animation BaseColorMap Camera Collapse ColorMap GoldenRatioColormap ImageFace ListedColorMap
+            MessageType Render SeededColormap SegmentedColorMap StudioBackground StudioEnvironment StudioTextureMapping
+            StudioToneMapping UiTab VSCodeComms camera_keep_warning check_deprecated combined_config comms_warning
+            default find_and_set_port get_colormap get_default get_defaults get_host get_port hex_to_rgb hsv_mapper
+            ignore_camera_warnings is_pytest listener matplotlib_mapper none_filter port_check push_object
+            random_rgb_mapper remove_object reset_defaults reset_show save_screenshot select_edge select_edges
+            select_face select_faces select_vertex select_vertices send_backend send_command send_config send_data
+            set_colormap set_defaults set_port set_viewer_config show show_all show_clear show_object show_objects
+            status unset_colormap web_to_rgb workspace_config
+        """,
+        "jupyter_cadquery": "show show_object show_all set_defaults open_viewer close_viewer",
+        "cq_vscode": "show show_object show_all set_defaults reset_show",
+        "yacv_server": "show show_object show_all clear remove export_all",
+        "cq_server": "ui",
+        "cadquery.vis": "show show_object style ctrlPts",
+    }.items()
 }
-"""By the name of its module or package: what a star-import of a viewer gives."""
+"""By the name of its module or package: what `from ... import *` gives of a viewer."""
 
 
 class Showing:
@@ -87,8 +87,12 @@ class Showing:
         self.shown += self._pushed
         self._pushed = []
 
-    def _show_object_of_viewer(self, obj: Any, name: str | None = None, options: Any = None, **more: Any) -> None:
-        """As of ocp_vscode. `alpha` is opacity."""
+    def _show_object_of_viewer(
+        self, obj: Any, name: str | None = None, options: Any = None, *_: Any, clear: bool = False, **more: Any
+    ) -> None:
+        """As of viewers. `alpha` is opacity; clear: in place of what was shown before."""
+        if clear:
+            self.reset_show()
         given = options if isinstance(options, Mapping) else more
         self.shown.append((obj, str(name or ""), _opaque(given.get("color"), given.get("alpha"))))
 

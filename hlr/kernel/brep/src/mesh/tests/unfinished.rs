@@ -21,7 +21,7 @@ fn meshed(steps: &Progress) -> Result<FaceMesh, Interrupted> {
 fn a_face_that_runs_out_of_steps_keeps_the_mesh_that_it_has() {
     let (whole, never) = (meshed(&Progress::free()).unwrap(), || false);
     let (mut before, mut lost, mut unfinished) = (0, 0, Vec::new());
-    for most in (0..400_000).step_by(10_000) {
+    for most in (0..400_000).step_by(5_000) {
         match meshed(&Progress::new(&never, None, most)) {
             Err(why) => {
                 assert_eq!((why, before), (Interrupted::TooMuch, 0));
