@@ -248,6 +248,10 @@ class Stretches:
         sheet: Ints,
     ) -> Stretches: ...
     def __len__(self) -> int: ...
+    def opened(self, open: Bools) -> Stretches:
+        """The same with beside 0 at edges of bodies that are closed no longer, open (e,). ValueError where an edge is
+        none of these."""
+
     def renumbered(self, target: Ints) -> Stretches:
         """The same for edges with new numbers target (e,), -1 for one that is gone or was cut: such an edge, and one
         of whose places is gone, loses its stretches. ValueError where an edge is none of these."""
@@ -399,14 +403,16 @@ def silhouettes(
     on: TrueSurfaces,
     kind: Bytes,
     goes_on: Bools,
+    crossed: Ints,
     walks: Walks,
     camera: Camera,
     chord: float,
 ) -> Outlines:
     """The outlines of true surfaces.
 
-    kind (e,): the class of each edge; goes_on: by class, whether the surface goes on smoothly across the edge; walks:
-    over the mesh's edges; chord: how far chords may stay off an outline. ValueError where they do not fit,
+    kind (e,): the class of each edge; goes_on: by class, whether the surface goes on smoothly across the edge; crossed
+    (m, 2): the last m edges are intersection lines, and these the triangles that cross there; walks: over the mesh's
+    edges; chord: how far chords may stay off an outline. ValueError where they do not fit,
     KeyboardInterrupt within milliseconds of Ctrl-C.
     """
 

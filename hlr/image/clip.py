@@ -183,6 +183,7 @@ def _cut(image: Image, height: Floats) -> Image:
         image,
         points=points,
         true_surfaces=None,
+        crossed=None,
         convex=image.convex and not crossing.any(),
         silhouettes=_cut_silhouettes(image, crossing, t, target, moved),
         triangles=triangles,

@@ -40,6 +40,10 @@ class Silhouettes:
     curves: Curves
     source: Ints
 
+    def opened(self, edges: npt.NDArray[np.bool_]) -> Silhouettes:
+        """The same where these edges (e,) bool are those of bodies that are closed no longer: one looks into them."""
+        return replace(self, hidden=self.hidden & ~edges, own=self.own.opened(edges))
+
 
 @dataclass(frozen=True, slots=True)
 class Image(Geometry):

@@ -73,6 +73,7 @@ def _with_outlines(image: Image, surfaces: TrueSurfaces) -> Image:
     source = found.source
     return replace(
         image,
+        crossed=None,
         points=shown.points,
         edges=shown.edges,
         offsets=shown.offsets,
@@ -106,7 +107,8 @@ def _traced(
     """
     kind = image.edge_kind
     on = surfaces.of(_kernel.traced_faces(mesh, face, kind, _tangent_borders(), surfaces.curved), face)
-    return on, _kernel.silhouettes(mesh, on, kind, goes_on(), image.walks, image.camera.scaled(1.0), chord)
+    crossed = np.zeros((0, 2), np.int32) if image.crossed is None else image.crossed
+    return on, _kernel.silhouettes(mesh, on, kind, goes_on(), crossed, image.walks, image.camera.scaled(1.0), chord)
 
 
 @LINE_CLASSES.derived

@@ -13,6 +13,7 @@ from hlr.image.image import Image
 from hlr.scene.colors import corner_colors
 from hlr.scene.scene import Scene
 from hlr.source.model import Appearance
+from hlr.tables.line_classes import EdgeClass
 
 
 def opacity_of(look: Appearance) -> float:
@@ -53,7 +54,8 @@ def without_glass(image: Image, glass: npt.NDArray[np.bool_]) -> Image:
     opened[image.triangle_group[glass]] = True
     silhouettes = image.silhouettes
     if silhouettes is not None:
-        silhouettes = replace(silhouettes, hidden=silhouettes.hidden & ~opened[image.edge_group])
+        # An intersection line may be that of glass with another part.
+        silhouettes = silhouettes.opened(opened[image.edge_group] | (image.edge_kind == EdgeClass.INTERSECTION))
     surfaces = image.true_surfaces
     return replace(
         image,

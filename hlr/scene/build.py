@@ -114,6 +114,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         convex=len(group_part) == 1 and not found.folded,
         facets=facets,
         intersections=intersections,
+        crossed=None if met is None else met.triangle,
     )
 
 

@@ -84,6 +84,8 @@ class Geometry:
     has_faces (p,) bool: the part has faces of a B-rep.
     convex: everything is one convex body, as far as floating point tells.
     intersections: None where no intersection line is curved.
+    crossed (m, 2): the last m edges are intersection lines, and these the two triangles that cross there; None: no such
+    line, or outlines and cut edges have been added since.
     facets (t, 3): normals of bare meshes, zero where the coordinates are too coarse for one; None: all is B-rep.
     """
 
@@ -109,6 +111,7 @@ class Geometry:
     convex: bool = False
     facets: Floats | None = None
     intersections: IntersectionCurves | None = None
+    crossed: Ints | None = None
 
     def mesh(self) -> _kernel.Mesh:
         """Points, triangles and edges as the kernel takes them; the arrays are not copied."""

@@ -67,7 +67,8 @@ def test_a_tube_around_a_cylinder_of_its_own_bore(picture):
     for z in (0, low, top):
         either += ring(RADIUS, z, -NEAR, NEAR) + ring(RADIUS, z, 180 - NEAR, 180 + NEAR)
     like(drawing, expect(drawing, seen, unseen), either=either)
-    picture(drawing, "tube")
+    # Where a rim of the tube touches the generator of the cylinder, a hidden line, the two lie on one another.
+    picture(drawing, "tube", twice=0.3)
 
 
 @pytest.mark.slow

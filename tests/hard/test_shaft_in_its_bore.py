@@ -56,8 +56,9 @@ def test_by_hand(turned, degrees, picture):
         either.append(((x, 0, LOW if degrees else -DEEP), (x, 0, TOP)))
     like(drawing, expect(drawing, seen, unseen), either=either)
     if (turned, degrees) == (17.3, 35):
-        # The bore's rim touches the shaft's generator.
-        picture(drawing, twice=0.1)
+        # The bore's rim ends where it touches the shaft's generator, which goes on below it as a hidden line: close to
+        # that place one lies on the other, on both sides.
+        picture(drawing, twice=0.25)
 
 
 def expect_few_changes(turned, view):

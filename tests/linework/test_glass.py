@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cadquery as cq
 import numpy as np
 import pytest
 import trimesh
@@ -41,6 +42,18 @@ def test_it_is_seen_through_where_that_is_asked_for() -> None:
     assert not drawing.notes
     (row,) = [d for d in drawing.plan if d.name == "seeing through glass"]
     assert row.on and row.counts == {"glass_triangles": 12}
+
+
+def test_all_of_a_rim_of_glass_is_seen() -> None:
+    """Also where the glass itself would hide it, close to its outlines."""
+    tumbler = cq.Assembly().add(cq.Workplane().circle(10).extrude(20), name="tumbler", color=cq.Color(0.5, 0.5, 1, 0.3))
+    drawing = hlr.draw(tumbler, see_through=True, **AT_SIZE)
+    (rim, *_) = sorted(
+        (line for line in drawing.visible if line.kind == "sharp"), key=lambda line: line.points[:, 1].min()
+    )
+    ends = [end for line in drawing.visible if line.edge == rim.edge for end in line.points[[0, -1]]]
+    apart = np.linalg.norm(np.array(ends)[:, None] - np.array(ends), axis=2) + 100.0 * np.eye(len(ends))
+    assert len(ends) > 2 and apart.min(axis=1).max() < 0.3
 
 
 def test_without_glass_nothing_changes() -> None:

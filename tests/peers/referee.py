@@ -5,10 +5,10 @@
     python -m peers.referee M6.step --views iso --peer occt-exact --why
     python -m peers.referee part.step --perspective 60
 
-Reported are wrong lines (`support.referee.judge` says what that is), missing lines (`missing`), edges off their own
-curves (`off_curve`) and lost faces (`lost`). The diagonal of a model is 300 mm on paper, the accuracy a 20000th of it;
-with `--fineness 6000` it is 0.05 mm, the default of hlr. With `--against MODEL` the files given are finished drawings
-(.json), judged as they are. Exit code 1 if anything is wrong.
+Reported are wrong lines (`support.referee.judge` says what that is), missing lines (`missing`), gaps in lines
+(`broken`), edges off their own curves (`off_curve`) and lost faces (`lost`). The diagonal of a model is 300 mm on
+paper, the accuracy a 20000th of it; with `--fineness 6000` it is 0.05 mm, the default of hlr. With `--against MODEL`
+the files given are finished drawings (.json), judged as they are. Exit code 1 if anything is wrong.
 """
 
 from __future__ import annotations

@@ -93,6 +93,12 @@ def missing(drawing: Exchange, depths: Depths, sheet: Sheet, image: Hits) -> Mis
     return Missing(answered + len(places), places, runs(absent, sheet), sheet.pixel)
 
 
+def edge_between(depths: Depths, start: Floats, end: Floats, accuracy: float) -> npt.NDArray[np.bool_]:
+    """Whether the surface breaks off or is sharp between points (n, 2) on paper and others near them."""
+    pairs, jump = Pairs(start, end, depths.at(start), depths.at(end)), CONTACT * accuracy
+    return np.asarray(_jumps(depths, pairs, jump, accuracy)[0] | _creases(depths, pairs, jump, accuracy)[0])
+
+
 @dataclass(frozen=True)
 class Pairs:
     """Pairs of points (n, 2) on paper, and the hits of the depth image there."""

@@ -25,6 +25,7 @@ HEADINGS = (
     "missing",
     "by own",
     "longest mm",
+    "broken",
     "off curve",
     "lost mm2",
     "draw s",
@@ -50,6 +51,7 @@ class Row:
     by_own: int = 0
     longest: float = 0.0
     faults: int = 0
+    broken: int = 0
     off: int = 0
     lost: float = 0.0
     draw: float = 0.0
@@ -59,7 +61,7 @@ class Row:
     @property
     def bad(self) -> bool:
         wrong = self.wrong_visible or self.wrong_hidden or self.displaced
-        return bool(wrong or self.faults or self.off or self.lost or self.failure)
+        return bool(wrong or self.faults or self.broken or self.off or self.lost or self.failure)
 
     def cells(self) -> list[str]:
         if self.failure:
@@ -80,6 +82,7 @@ class Row:
             str(self.missing),
             str(self.by_own),
             f"{self.longest:.2f}" + ("!" if self.faults else ""),
+            str(self.broken),
             str(self.off),
             f"{self.lost:.1f}",
             f"{self.draw:.2f}",
@@ -106,6 +109,7 @@ def row(
         by_own=len(seen.own_gaps.places) if seen.own_gaps else 0,
         longest=seen.gaps.worst,
         faults=len(seen.gaps.faults),
+        broken=len(seen.breaks),
         off=off,
         lost=sum(area for area, _ in seen.lost.areas) if seen.lost else 0.0,
         draw=draw,
@@ -127,6 +131,7 @@ def total(rows: Sequence[Row]) -> Row:
             "missing",
             "by_own",
             "faults",
+            "broken",
             "off",
             "lost",
             "draw",

@@ -125,6 +125,9 @@ pub const JUNCTION_ALONG: f64 = 30.0;
 pub const JUNCTION_PIERCED: f64 = 0.02;
 /// Of the accuracy: two curves this close have met.
 pub const JUNCTION_MET: f64 = 1e-4;
+/// Millimetres on paper: how far before the place where it touches an outline a line may end, and yet go on to it. Where
+/// a surface is seen at less than a certain angle, its facets hide what lies on it, however fine they are.
+pub const JOINT_REACH: f64 = 20.0;
 
 // What is too short to be drawn.
 

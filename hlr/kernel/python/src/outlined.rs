@@ -95,6 +95,8 @@ pub fn outlined<'py>(
     // They were found on a mesh, which may have been another one.
     expect_len("faces", on.number.len(), outlines.traced.len())?;
     expect_below("edge of a border", outlines.grazing.iter().map(|g| g.edge as i32), all.edges.len())?;
+    let crossed = outlines.grazing.iter().filter_map(|g| g.crossed).flatten();
+    expect_below("triangles that cross", crossed, all.triangles.len())?;
     if first.first().is_none_or(|&face| face != 0) {
         return Err(PyValueError::new_err("first must begin with 0"));
     }

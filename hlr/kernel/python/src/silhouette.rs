@@ -1,10 +1,10 @@
 //! Binding of `hlr_linework::silhouette`: outlines of true surfaces.
 
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
-use super::arrays::{expect_below, expect_len, expect_slice_below, flat as slice};
+use super::arrays::{expect_below, expect_len, expect_slice_below, flat as slice, rows as table};
 use super::camera::Camera;
 use super::curve_columns::CurveColumns;
 use super::mesh_input::Mesh;
@@ -48,6 +48,7 @@ pub fn silhouettes<'py>(
     on: &TrueSurfaces,
     kind: PyReadonlyArray1<'py, u8>,
     goes_on: PyReadonlyArray1<'py, bool>,
+    crossed: PyReadonlyArray2<'py, i32>,
     walks: &Walks,
     camera: &Camera,
     chord: f64,
@@ -59,6 +60,11 @@ pub fn silhouettes<'py>(
     expect_len("triangle_face", triangle_face.len(), all.triangles.len())?;
     expect_len("kind", kind.len(), all.edges.len())?;
     let smooth: Vec<bool> = kind.iter().map(|&kind| goes_on.get(usize::from(kind)) == Some(&true)).collect();
+    let crossed = table::<i32, 2>(&crossed, "crossed")?;
+    if crossed.len() > all.edges.len() {
+        return Err(PyValueError::new_err("crossed has more entries than there are edges"));
+    }
+    expect_below("crossed", crossed.iter().flatten().copied(), all.triangles.len())?;
     walks.expect_edges(all.edges.len())?;
     let source = walks.0.along_source(all.edges.len());
     if chord.is_nan() || chord <= 0.0 {
@@ -75,6 +81,7 @@ pub fn silhouettes<'py>(
         edges: all.edges,
         offsets: all.offsets,
         incident: all.incident,
+        crossed,
         smooth: &smooth,
         source: &source,
         corner,

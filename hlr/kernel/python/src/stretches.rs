@@ -63,6 +63,14 @@ impl Stretches {
         self.0.edge.len()
     }
 
+    fn opened(&self, py: Python<'_>, open: PyReadonlyArray1<'_, bool>) -> PyResult<Stretches> {
+        caught(py, || {
+            let open = slice(&open, "open")?;
+            self.expect_edges(open.len())?;
+            Ok(Stretches(self.0.opened(open)))
+        })
+    }
+
     fn renumbered(&self, py: Python<'_>, target: PyReadonlyArray1<'_, i32>) -> PyResult<Stretches> {
         caught(py, || {
             let target = slice(&target, "target")?;

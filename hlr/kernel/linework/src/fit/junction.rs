@@ -69,7 +69,9 @@ fn covered(routes: &[Route], changes: &[Change], accuracy: f64, contact: f64, vi
                 }
                 let from = (start, other.parameter(k, s));
                 let crossed = if ends.len() > 1 { crossing(own, other, from, away, accuracy) } else { None };
-                let found = crossed.or_else(|| if lifted { touching(own, other, from, accuracy) } else { None });
+                let found = crossed.or_else(|| {
+                    if lifted { touching(own, other, from, JUNCTION_ALONG * accuracy, accuracy) } else { None }
+                });
                 let Some((t, u)) = found else { continue };
                 // An outline that is touched beyond its end is extended to that place.
                 let reach = if crossed.is_none() && other.border == Border::Outline {
@@ -197,13 +199,20 @@ fn crossing(own: &Route, other: &Route, (start, u): (f64, f64), away: f64, accur
     None
 }
 
-/// The place where own and other are parallel. Two straight lines are so nowhere, or everywhere.
+/// The place, at most `reach` away along own, where own and other are parallel. Two straight lines are so nowhere, or
+/// everywhere.
 ///
 /// ```text
 ///    own     --------------o- - - -        sought is the place where the tangents' angle vanishes,
 ///   other         .  -  ~ ~ ~ -  .         by the secant method along other
 /// ```
-fn touching(own: &Route, other: &Route, (start, u): (f64, f64), accuracy: f64) -> Option<(f64, f64)> {
+pub(super) fn touching(
+    own: &Route,
+    other: &Route,
+    (start, u): (f64, f64),
+    reach: f64,
+    accuracy: f64,
+) -> Option<(f64, f64)> {
     // The foot point on own of a place of other, and the sine of the angle between them there.
     let look = |mut t: f64, u: f64| {
         let [q, b] = other.at(u);
@@ -225,7 +234,7 @@ fn touching(own: &Route, other: &Route, (start, u): (f64, f64), accuracy: f64) -
     for _ in 0..STEPS {
         let (foot, away, g1) = look(t, u1);
         t = foot;
-        if !g1.is_finite() || length(&minus(&own.at(t)[0], &own.at(start)[0])) > JUNCTION_ALONG * accuracy {
+        if !g1.is_finite() || length(&minus(&own.at(t)[0], &own.at(start)[0])) > reach {
             return None;
         }
         // At a seam the angle may stop short of zero.

@@ -3,6 +3,7 @@
 //! 1. `locate`   the parameters of a line's vertices on its edge's curve in space, checked against the line
 //! 2. `project`  the curve on paper
 //! 3. `junction`  ends where another line hides this one, moved to the crossing of the two curves
+//!    `smooth_joints`  ends where an outline goes on as another line, moved to where the two touch
 //!    `pierced`   ends where the line passes through a surface, moved to the end of the intersection line
 //! 4. `straight`, `arc`, `bezier`, `cubic`  the first of these that is exact, or within its share of the accuracy
 //! 5. `shared_end`  ends of one edge's lines that met before meet again, to the last bit
@@ -25,6 +26,7 @@ pub mod route;
 pub mod routes;
 pub mod shared_end;
 pub mod smooth;
+pub mod smooth_joints;
 pub mod straight;
 pub mod track;
 

@@ -5,9 +5,10 @@ use rayon::prelude::*;
 use super::arc::grow;
 use super::junction::junctions;
 use super::pierced::Meeting;
-use super::plane::Vec2;
+use super::plane::{Vec2, length, minus};
 use super::route::{Border, Goal, Move, Route};
 use super::shared_end::share_ends;
+use super::smooth_joints::{Grown, smooth_joints, swallowed};
 use super::{Drawn, Form, Placed, located, piece};
 use crate::lines::Polyline;
 use crate::lines::camera::Camera;
@@ -56,10 +57,12 @@ pub struct OnCurve {
     pub flat: [Vec2; 2],
     pub space: [Vec3; 2],
     pub inner: std::ops::Range<usize>,
+    /// Points between the first and the last of these and the ends, where an end has moved a long way.
+    pub grown: [Vec<(Vec2, Vec3)>; 2],
     pub bounds: [Vec2; 2],
 }
 
-/// Each line on the curve of its guide. `meetings`: of intersection lines, sorted by their first coordinate.
+/// Each line on the curve of its guide; None where another line of its chain takes its place. `meetings`: of intersection lines, sorted by their first coordinate.
 pub fn on_curves(
     lines: &[Polyline],
     guides: &[Guide],
@@ -67,7 +70,7 @@ pub fn on_curves(
     camera: &Camera,
     fit: &Fit,
     meetings: &[Meeting],
-) -> Vec<OnCurve> {
+) -> Vec<Option<OnCurve>> {
     let (projection, view, accuracy) = (camera.projection(), camera.view(), fit.accuracy);
     let n = lines.len();
     // Lines along one curve in one place share its search table.
@@ -105,16 +108,23 @@ pub fn on_curves(
         })
         .collect();
     let beside = JUNCTION_PIERCED * accuracy / camera.scale;
-    let moves = junctions(&routes, accuracy, fit.contact, &view, (meetings, beside));
+    let mut moves = junctions(&routes, accuracy, fit.contact, &view, (meetings, beside));
+    let joints = smooth_joints(&routes, &moves, accuracy, fit.contact, &view);
+    let first_joint = moves.len();
+    moves.extend(joints);
+    let mut grown: Vec<Grown> = Vec::new();
     // The ends of polylines that move. Ends of curves move with their interval.
     let mut moved: Vec<[Option<(Vec2, Vec3)>; 2]> = vec![[None; 2]; n];
-    for Move { line, end, to } in moves {
+    for (k, Move { line, end, to }) in moves.into_iter().enumerate() {
         match (&mut routes[line].curve, to) {
             (Some((_, ts)), Goal::Parameter(t)) => {
                 let at = end * (ts.len() - 1);
                 let rest = ts[ts.len() - 1 - at];
                 // An end never moves past the line's other end.
                 if (ts[at] - rest) * (t - rest) > 0.0 {
+                    if k >= first_joint && (t - rest).abs() > (ts[at] - rest).abs() {
+                        grown.push(Grown { line, end, range: [ts[at], t] });
+                    }
                     ts[at] = t;
                 }
             }
@@ -122,6 +132,9 @@ pub fn on_curves(
             _ => {}
         }
     }
+    let gone = swallowed(&mut routes, &grown);
+    let mut between: Vec<[Vec<(Vec2, Vec3)>; 2]> = vec![<[Vec<_>; 2]>::default(); n];
+    grown.iter().for_each(|g| between[g.line][g.end] = points_between(&routes[g.line], g.range, fit));
     let mut drawn: Vec<Option<Drawn>> = routes
         .par_iter()
         .map(|route| {
@@ -134,9 +147,12 @@ pub fn on_curves(
         .into_par_iter()
         .zip(drawn)
         .zip(moved)
-        .map(|((route, drawn), moved)| match (drawn, &route.curve) {
-            (Some(drawn), Some((_, ts))) => along(drawn, ts),
-            _ => as_it_was(&route, moved),
+        .zip(gone)
+        .zip(between)
+        .map(|((((route, drawn), moved), gone), grown)| match (drawn, &route.curve) {
+            _ if gone => None,
+            (Some(drawn), Some((_, ts))) => Some(OnCurve { grown, ..along(drawn, ts) }),
+            _ => Some(as_it_was(&route, moved)),
         })
         .collect()
 }
@@ -148,7 +164,18 @@ fn along(drawn: Drawn, ts: &[f64]) -> OnCurve {
     let first = ts.iter().position(inside).unwrap_or(0);
     let inner = first..ts.iter().rposition(inside).map_or(first, |k| k + 1);
     let Drawn { form, range, flat, space, bounds } = drawn;
-    OnCurve { form: Some(form), range, flat, space, inner, bounds }
+    OnCurve { form: Some(form), range, flat, space, inner, grown: Default::default(), bounds }
+}
+
+/// Points of a line in a range of its curve, without its ends: chords between them are near enough to the curve.
+fn points_between(route: &Route, [from, to]: [f64; 2], fit: &Fit) -> Vec<(Vec2, Vec3)> {
+    let Some((placed, _)) = &route.curve else { return Vec::new() };
+    let ([p, a], [q, b]) = (placed.on_paper(from), placed.on_paper(to));
+    let turn = (a[0] * b[1] - a[1] * b[0]).abs() / (length(&a) * length(&b));
+    // An arc of length s that turns by w rises s w / 8 above its chord.
+    let count = (length(&minus(&q, &p)) * turn / (8.0 * fit.chord * fit.accuracy)).sqrt().ceil() as usize;
+    let at = |k: usize| from + (to - from) * k as f64 / (count + 1) as f64;
+    (1..=count).map(|k| (placed.on_paper(at(k))[0], placed.curve.point(placed.track.wrapped(at(k))))).collect()
 }
 
 fn as_it_was(route: &Route, moved: [Option<(Vec2, Vec3)>; 2]) -> OnCurve {
@@ -163,6 +190,7 @@ fn as_it_was(route: &Route, moved: [Option<(Vec2, Vec3)>; 2]) -> OnCurve {
         flat: ends.map(|e| e.0),
         space: ends.map(|e| e.1),
         inner: 0..last + 1,
+        grown: Default::default(),
         bounds,
     }
 }

@@ -25,10 +25,11 @@ mod trace;
 mod tests;
 
 use crate::silhouette::FaceRecord;
+use crate::silhouette::side::on_triangle;
 use face::Face;
 use hlr_brep::geometry::curve::Curve;
 use hlr_brep::geometry::surface::Surface;
-use hlr_brep::geometry::vector::{Vector, cross, dot, length, sub};
+use hlr_brep::geometry::vector::Vector;
 pub use trace::curves;
 
 /// Meshes of faces, and the surfaces under them, borrowed.
@@ -89,15 +90,7 @@ impl Sheets<'_> {
     /// The face of a triangle, and the parameters of a point on the triangle.
     fn place(&self, t: i32, p: &Vector) -> Option<(Face<'_>, [f64; 2])> {
         let face = self.face(t)?;
-        let [a, b, c] = self.triangles[t as usize].map(|v| &self.points[v as usize]);
-        let [u, v, w] = self.corner[t as usize].map(|k| self.uv[k as usize]);
-        let up = cross(&sub(b, a), &sub(c, a));
-        let square = dot(&up, &up);
-        let share = |from: &Vector, to: &Vector| dot(&cross(&sub(to, from), &sub(p, from)), &up) / square;
-        let (of_b, of_c) = (share(c, a), share(a, b));
-        if length(&up) == 0.0 || !of_b.is_finite() {
-            return Some((face, u));
-        }
-        Some((face, [0, 1].map(|k| u[k] + of_b * (v[k] - u[k]) + of_c * (w[k] - u[k]))))
+        let corners = self.triangles[t as usize].map(|v| &self.points[v as usize]);
+        Some((face, on_triangle(p, corners, self.corner[t as usize].map(|k| self.uv[k as usize]))))
     }
 }

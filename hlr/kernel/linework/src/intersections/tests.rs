@@ -2,6 +2,7 @@ use std::f64::consts::PI;
 
 use super::*;
 use hlr_brep::geometry::curve::Curve;
+use hlr_brep::geometry::vector::{cross, dot, length, sub};
 
 const HERE: [[f64; 4]; 3] = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
 const DEFLECTION: f64 = 0.02;

@@ -63,7 +63,8 @@ pub fn finish(
     } else {
         let found = on_curves(&cut.lines, &own, curves, camera, fit, &cut.meetings);
         let made = cut.lines.into_par_iter().zip(cut.smooth).zip(&own).zip(found);
-        made.map(|(((line, smooth), guide), found)| bent(line, smooth, guide, found, curves, camera, fit)).collect()
+        made.filter_map(|(((line, smooth), guide), found)| Some(bent(line, smooth, guide, found?, curves, camera, fit)))
+            .collect()
     };
     made.retain(|m| m.line.visible || hidden);
     let mut low = [f64::INFINITY; 2];
@@ -103,6 +104,13 @@ fn bent(
     line.flat.retain(|_| numbers.next().is_none_or(kept));
     let mut numbers = 0..;
     line.space.retain(|_| numbers.next().is_none_or(kept));
+    let [mut first, second] = found.grown;
+    first.reverse();
+    let end = line.flat.len() - 1;
+    line.flat.splice(end..end, second.iter().map(|p| p.0));
+    line.space.splice(end..end, second.iter().map(|p| p.1));
+    line.flat.splice(1..1, first.iter().map(|p| p.0));
+    line.space.splice(1..1, first.iter().map(|p| p.1));
     let mut bounds = found.bounds;
     if found.form == Some(Form::Straight) {
         flatten(&mut line);

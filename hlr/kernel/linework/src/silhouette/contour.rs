@@ -11,6 +11,7 @@
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
+use super::crossed::grazed_crossing;
 use super::face::{Face, Place, mean};
 use super::grazing::{Dents, Grazing, dents, grazed};
 use super::refine::{outward, rise};
@@ -180,7 +181,24 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
         out.grazing.par_extend(anew);
         out.grazing.sort_by_key(|grazing| grazing.edge);
     }
+    // Intersection lines come last among the edges.
+    out.grazing.par_extend(crossings(model, stopped));
     out
+}
+
+/// The stretches of intersection lines, by edge.
+fn crossings<'a>(
+    model: &'a Model,
+    stopped: &'a (dyn Fn() -> bool + Sync),
+) -> impl ParallelIterator<Item = Grazing> + use<'a> {
+    let first = model.edges.len() - model.crossed.len();
+    model.crossed.par_iter().enumerate().flat_map_iter(move |(k, &triangles)| {
+        let mut found = Vec::new();
+        if !stopped() {
+            grazed_crossing(model, first + k, triangles, &mut found);
+        }
+        found
+    })
 }
 
 /// Whether two triangles of one face share both nodes of an edge, so that they have one crossing. All nodes of a pole

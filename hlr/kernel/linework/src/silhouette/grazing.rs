@@ -36,6 +36,8 @@ pub struct Grazing {
     pub dented: bool,
     /// The rise at both ends, as in a `Stretch`, for the first face that turns over along this edge; None for others.
     pub rise: Option<[f64; 2]>,
+    /// Of an intersection line, the two triangles that cross there.
+    pub crossed: Option<[i32; 2]>,
 }
 
 /// |N . v|: triangles of a face seen at more than this do not hide its own border through their deflection.
@@ -45,7 +47,7 @@ const GRAZE: f64 = 0.3;
 const SWING: f64 = 0.1;
 
 /// |N . v|: a face or triangle seen at less is parallel to the line of sight; rounding would decide what it hides.
-const WALL: f64 = 1e-6;
+pub(super) const WALL: f64 = 1e-6;
 
 /// Area as a share of the square of the longer side: the normal of a triangle with less is not reliable.
 const NEEDLE: f64 = 1e-9;
@@ -96,14 +98,24 @@ pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], dents: &D
             let rise = (turning == Some(at))
                 .then(|| [0, 1].map(|k| rise(model, &[side.triangle], &on_edge(model, e, range[k]), &normals[k])));
             let (front, dented) = (f < 0.0, dented(side));
-            out.push(Grazing { edge: e as u32, range, face: side.number, normals, front, beside, dented, rise });
+            out.push(Grazing {
+                edge: e as u32,
+                range,
+                face: side.number,
+                normals,
+                front,
+                beside,
+                dented,
+                rise,
+                crossed: None,
+            });
         }
     }
 }
 
 /// Whether the face is seen nearly edge-on, or turns over, anywhere along its border. The ends alone do not tell: along
 /// a straight border of a twisted face, a single chord, it may turn over from end to end.
-fn seen_edge_on(model: &Model, side: &Side) -> bool {
+pub(super) fn seen_edge_on(model: &Model, side: &Side) -> bool {
     let edge_on = |f: &[f64]| f.iter().any(|f| f.abs() < GRAZE) || f.iter().any(|g| g.signum() != f[0].signum());
     let [a, b] = side.corners.map(|v| model.points[v as usize]);
     let middle = dot(&side.normal, &model.sight(&along(&a, &sub(&b, &a), 0.5)));
@@ -136,7 +148,7 @@ fn on_edge(model: &Model, e: usize, t: f64) -> Vector {
 
 /// Outward unit normal of the planar face of a triangle; None where its plane is not known and the triangle is a
 /// needle.
-fn plane_normal(model: &Model, triangle: i32) -> Option<Vector> {
+pub(super) fn plane_normal(model: &Model, triangle: i32) -> Option<Vector> {
     let t = triangle as usize;
     let of_face = |face: Face| face.normal(model.uv[model.corner[t][0] as usize]);
     Face::new(model, model.triangle_face[t]).and_then(of_face).or_else(|| {
@@ -221,10 +233,10 @@ fn uv_at(side: &Side, t: f64) -> [f64; 2] {
 
 /// Parameters (from 0) at which a face turns over along its edge, each with the sign of f from there on. The sign is 0
 /// where the face is parallel to the line of sight.
-type Turns = SmallVec<[(f64, f64); 2]>;
+pub(super) type Turns = SmallVec<[(f64, f64); 2]>;
 
 /// Where a face turns over along its edge.
-fn turns(side: &Side) -> Turns {
+pub(super) fn turns(side: &Side) -> Turns {
     let Some(face) = &side.face else { return Turns::new() };
     let [first, last] = side.f.map(sign);
     if first == last && first != 0.0 && follows_cosine(side) { smallvec![(0.0, first)] } else { searched(side, face) }
@@ -303,6 +315,7 @@ mod tests {
             edges: &[],
             offsets: &[0],
             incident: &[],
+            crossed: &[],
             smooth: &[],
             source: &[],
             corner: &[],

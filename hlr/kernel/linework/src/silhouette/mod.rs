@@ -12,6 +12,7 @@
 //! 2. `contour`  mesh edges where f changes its sign: the crossing is found on the true surface; where the two faces at
 //!               an edge change sign at different places, the edge itself is the fold in between, so no gap is left
 //!    `grazing`  borders of faces that are seen nearly edge-on, and whether these faces hide them
+//!    `crossed`  the same of intersection lines
 //!    `behind`   farther borders of walls seen edge-on, where the surface comes toward the viewer by steps
 //! 3. `refine`   adds points on the surface between crossings until the chords are near enough; divides at cusps
 //! 4. `trace`    joins them into curves, divided where the face, the edge or the sign of the curvature changes,
@@ -27,6 +28,7 @@
 
 pub mod behind;
 pub mod contour;
+pub mod crossed;
 pub mod curve;
 pub mod face;
 pub mod grazing;
@@ -58,6 +60,8 @@ pub struct Model<'a> {
     /// Triangles incident to edge e: incident[offsets[e]..offsets[e + 1]].
     pub offsets: &'a [i32],
     pub incident: &'a [i32],
+    /// Of the last edges, which are intersection lines: the two triangles that cross there.
+    pub crossed: &'a [[i32; 2]],
     /// Edges across which the surface continues smoothly.
     pub smooth: &'a [bool],
     /// The edge of the B-rep of which an edge is a chord, -1 for none.

@@ -65,7 +65,8 @@ pub fn outlined(
         out.part_of_outline.push(part);
         out.face_in_part.push(line.face - image.first[part as usize]);
     }
-    let bare: Vec<&Grazing> = grazing.iter().filter(|g| classes.border[image.kind[g.edge as usize] as usize]).collect();
+    let bounds = |g: &&Grazing| g.crossed.is_some() || classes.border[image.kind[g.edge as usize] as usize];
+    let bare: Vec<&Grazing> = grazing.iter().filter(bounds).collect();
     // For one convex body culling alone decides: no edge needs its own faces.
     if !image.convex || !bare.is_empty() {
         let mut stretches: Vec<Stretch> = bare.into_iter().map(|g| of_border(image, g, lengths)).collect();
@@ -90,7 +91,10 @@ pub fn outlined(
 /// A border of a face that is seen nearly edge-on, as it is compared with that face.
 fn of_border(image: &Image, border: &Grazing, lengths: &Lengths) -> Stretch {
     let edge = border.edge as usize;
-    let closed = image.closed[image.group[edge] as usize];
+    let closed = match border.crossed {
+        Some(pair) => pair.iter().all(|&t| image.closed[image.triangle_group[t as usize] as usize]),
+        None => image.closed[image.group[edge] as usize],
+    };
     let beside = if closed { border.beside } else { Beside::Unknown };
     // Only the outer side of a closed body is seen; of an open one, the side that faces the viewer.
     let side = if closed || border.front { 1.0 } else { -1.0 };

@@ -2,7 +2,7 @@
 
 use super::face::{Face, Place, root};
 use super::{Model, TIE};
-use hlr_brep::geometry::vector::{Vector, dot};
+use hlr_brep::geometry::vector::{Vector, cross, dot, length, sub};
 
 /// One triangle at an edge a-b, with f and the surface parameters at a and b.
 pub struct Side<'a> {
@@ -88,4 +88,17 @@ pub fn side<'a>(model: &'a Model<'a>, values: &[f64], e: usize, t: i32) -> Optio
     // The surface may have no normal just there.
     let normal = face.normal(half).or_else(|| ends.iter().find_map(|&end| face.normal_toward(half, end)))?;
     Some(Side { triangle: t, number, corners: [a, b], uv: ends, f, face: Some(face), normal })
+}
+
+/// The surface parameters of a point on a triangle, from those at its corners; of a triangle without a height, those of
+/// its first corner.
+pub fn on_triangle(p: &Vector, [a, b, c]: [&Vector; 3], [u, v, w]: [[f64; 2]; 3]) -> [f64; 2] {
+    let up = cross(&sub(b, a), &sub(c, a));
+    let square = dot(&up, &up);
+    let share = |from: &Vector, to: &Vector| dot(&cross(&sub(to, from), &sub(p, from)), &up) / square;
+    let (of_b, of_c) = (share(c, a), share(a, b));
+    if length(&up) == 0.0 || !of_b.is_finite() {
+        return u;
+    }
+    [0, 1].map(|k| u[k] + of_b * (v[k] - u[k]) + of_c * (w[k] - u[k]))
 }

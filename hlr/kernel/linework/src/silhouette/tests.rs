@@ -68,6 +68,7 @@ impl Body {
             edges: &t.edges,
             offsets: &t.offsets,
             incident: &t.incident,
+            crossed: &[],
             smooth: &vec![true; t.edges.len()],
             source: &vec![-1; t.edges.len()],
             corner: &self.corner,

@@ -105,7 +105,8 @@ impl OwnFaces<'_> {
                     return None;
                 }
                 let mut segments = self.decided::<A>(mesh, table, exact, (*run).clone())?;
-                if mesh.incident(edge as usize).is_empty() {
+                let of_outline = |stretch| self.stretches.beside[stretch] == Beside::Unknown as u8;
+                if mesh.incident(edge as usize).is_empty() && (*run).clone().all(of_outline) {
                     // An outline is moved off its face for all polygons alike; what is visible of it then is visible.
                     let lifted: Vec<Segment> = pieces[drawn(run)].iter().map(|p| p.segment).collect();
                     segments = merged(&segments, &lifted, State::less_hidden);

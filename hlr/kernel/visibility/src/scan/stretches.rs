@@ -64,6 +64,18 @@ impl Stretches {
         self.offsets[stretch] as usize..self.offsets[stretch + 1] as usize
     }
 
+    /// The stretches where some edges (all of them: e) are those of bodies that are closed no longer: what their own faces
+    /// hide is not known.
+    pub fn opened(&self, open: &[bool]) -> Stretches {
+        let mut out = self.clone();
+        out.beside
+            .iter_mut()
+            .zip(&self.edge)
+            .filter(|(_, edge)| open[**edge as usize])
+            .for_each(|(beside, _)| *beside = Beside::Unknown as u8);
+        out
+    }
+
     /// The stretches after edges were renumbered. target: per edge its new number, -1 where it is gone or was cut: such
     /// an edge, and one of whose places is gone, loses all its stretches.
     pub fn renumbered(&self, target: &[i32]) -> Stretches {
@@ -110,6 +122,12 @@ mod tests {
     fn an_edge_is_the_run_of_its_stretches() {
         assert_eq!(stretches().runs(), [0..2, 2..3, 3..4]);
         assert_eq!((stretches().faces(1), Stretches::NONE.runs()), (1..3, vec![]));
+    }
+
+    #[test]
+    fn what_the_faces_of_an_open_body_hide_is_not_known() {
+        let found = stretches().opened(&[false, false, true, false, false, true]);
+        assert_eq!(found, Stretches { beside: vec![0, 0, 2, 0], ..stretches() });
     }
 
     #[test]
