@@ -14,7 +14,7 @@ from typing import NoReturn
 
 import click
 
-from hlr.errors import HlrError, KernelError, StrictError, respelled
+from hlr.errors import HlrError, KernelError, StrictError
 from hlr.tables.entry import listed
 
 from . import guard, signals
@@ -147,13 +147,8 @@ def _sentence(message: str) -> str:
 
 def _message(error: HlrError) -> str:
     """What an error says. Where a warning is one, the pipeline says no more than the warning: the reason is added."""
-    text, reason = respelled(str(error), _as_typed), "nothing is written, because of --strict"
+    text, reason = str(error), "nothing is written, because of --strict"
     return text if not isinstance(error, StrictError) or reason in text else f"{text.rstrip('.')}; {reason}"
-
-
-def _as_typed(option: str) -> str:
-    """An option as the command line spells it."""
-    return f"--{option.replace('_', '-')}"
 
 
 def _full(message: str) -> str:

@@ -186,12 +186,11 @@ def as_table(cure: str = "give it once") -> Callable[..., dict[str, Any] | None]
 
 @dataclass(frozen=True)
 class Number(click.ParamType[float]):
-    """A number. least, most: what is allowed; with below and above that itself is not."""
+    """A number. least, most: what is allowed; with above the least itself is not."""
 
     least: float | None = None
     most: float | None = None
     above: bool = False
-    below: bool = False
 
     name = "NUMBER"
 
@@ -202,7 +201,7 @@ class Number(click.ParamType[float]):
             self.fail(f"{value!r} is not a number", param, ctx)
         low, high = self.least, self.most
         if (low is not None and (number <= low if self.above else number < low)) or (
-            high is not None and (number >= high if self.below else number > high)
+            high is not None and number > high
         ):
             self.fail(f"{_exactly(number)} is out of range: give a number {self._range()}", param, ctx)
         return number
@@ -210,10 +209,10 @@ class Number(click.ParamType[float]):
     def _range(self) -> str:
         """What is allowed, for people."""
         low, high = ("" if each is None else _exactly(each) for each in (self.least, self.most))
-        if low and high and not (self.above or self.below):
+        if low and high and not self.above:
             return f"from {low} to {high}"
         least = low and f"{'above' if self.above else 'of at least'} {low}"
-        most = high and f"{'below' if self.below else 'of at most'} {high}"
+        most = high and f"of at most {high}"
         return " and ".join(filter(None, (least, most)))
 
 

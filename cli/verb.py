@@ -7,6 +7,8 @@ from typing import Any
 
 import click
 
+from hlr.errors import HlrError, respelled
+
 
 class Verb(click.Command):
     """A command whose options are given once; flags and options marked `multiple` may be repeated."""
@@ -38,10 +40,17 @@ class Verb(click.Command):
         return sorted(known[near] for near in get_close_matches(option.lstrip("-"), known))
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Carry out the command, and then say which options had no effect. Raises OptionError for those of no use."""
-        from .without_effect import refuse, tell
+        """Carry out the command, and then say which options had no effect. Raises OptionError for those of no use.
 
-        refuse(ctx)
-        result = super().invoke(ctx)
+        Messages of errors name options as they were typed.
+        """
+        from .without_effect import Asked, refuse, tell
+
+        try:
+            refuse(ctx)
+            result = super().invoke(ctx)
+        except HlrError as error:
+            error.args = (respelled(str(error), Asked(ctx).as_typed),)
+            raise
         tell(ctx)
         return result

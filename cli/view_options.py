@@ -131,9 +131,9 @@ CAMERA = (
     click.option("--target", type=Vector(), metavar="X,Y,Z", help="Perspective: what it looks at."),
     click.option(
         "--fov",
-        type=Number(0.0, 180.0, above=True, below=True),
+        type=Number(0.01, 170.0),
         metavar="DEG",
-        help="Perspective: vertical field of view.",
+        help="Perspective: vertical field of view, 0.01 to 170.",
     ),
 )
 

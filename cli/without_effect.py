@@ -38,9 +38,11 @@ class Asked:
     def __init__(self, ctx: click.Context) -> None:
         self.verb = ctx.command.name
         self.values: dict[str, Any] = ctx.params
-        typed = (each for each in ctx.command.params if isinstance(each, click.Option) and each.name is not None)
+        self._known = {each.name: each for each in ctx.command.params if isinstance(each, click.Option) and each.name}
         self.given = {
-            each.name: each for each in typed if ctx.get_parameter_source(each.name) is ParameterSource.COMMANDLINE
+            name: each
+            for name, each in self._known.items()
+            if ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE
         }
 
     def spelled(self, name: str) -> str:
@@ -48,6 +50,16 @@ class Asked:
         option = self.given[name]
         off = self.values.get(name) is False and option.secondary_opts
         return max(off or option.opts, key=len)
+
+    def as_typed(self, name: str) -> str:
+        """An option that has this name in Python: as it was typed, else as it would be."""
+        if typed := [self.spelled(each) for each in _ASKING.get(name, (name,)) if each in self.given]:
+            return listed(typed, "and")
+        return max(self._known[name].opts, key=len) if name in self._known else f"--{name.replace('_', '-')}"
+
+
+_ASKING = {"perspective": ("perspective", "eye", "target", "fov")}
+"""Options of Python that several of the command line ask for."""
 
 
 @dataclass(frozen=True, slots=True)

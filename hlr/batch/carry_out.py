@@ -16,7 +16,7 @@ from hlr.batch.pulled_in import references
 from hlr.batch.request import options_of
 from hlr.batch.unused_patterns import named
 from hlr.common.process import debugging
-from hlr.errors import HlrError, StrictError
+from hlr.errors import HlrError, StrictError, respelled
 
 if TYPE_CHECKING:
     from hlr.common.types import Progress
@@ -42,7 +42,7 @@ def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
         )
     except HlrError as error:
         # A file that is not there, or cannot be read, is named by its path: the report says it from the batch's folder.
-        text, path = str(error), str(Path(job.root, job.source))
+        text, path = respelled(str(error), str), str(Path(job.root, job.source))
         outcome = failed(type(error).__name__, job.source + text.removeprefix(path) if text.startswith(path) else text)
     except MemoryError:
         outcome = failed("MemoryError", f"{job.source}: out of memory; a larger accuracy needs less.")

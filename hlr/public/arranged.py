@@ -113,7 +113,7 @@ def _printed(
         raise OptionError(f"texts are needed by the keys of fields, such as {{'TITLE': 'Bracket'}}, not {texts!r}")
     if template is None:
         if texts:
-            raise OptionError("texts are for the fields of a template: give one, or leave them out")
+            raise OptionError("`texts` is for the fields of a template: give `template` as well, or leave it out")
         return Printed(room=room)
     if options.page is not None:
         raise OptionError("a template has a size of its own: leave out `page`, or `template`")
@@ -133,7 +133,7 @@ def check_room(room: Any) -> None:
         or not all(map(is_finite, numbers))
         or not (numbers[0] < numbers[2] and numbers[1] < numbers[3])
     ):
-        raise OptionError(f"room needs two corners in millimetres, such as 20,60,287,200, not {typed_value(room)}")
+        raise OptionError(f"`room` needs two corners in millimetres, such as 20,60,287,200, not {typed_value(room)}")
 
 
 def check_arranged(options: Options) -> None:

@@ -125,7 +125,7 @@ def _with_size(options: Options) -> Options:
             raise OptionError(f"`page` and `fit` both name a sheet, {page!r} and {fit!r}: give one of them")
     elif fit is not None and (not _is_vector(fit, 2) or min(fit) < SMALLEST_FIT or max(fit) > LARGEST_FIT):
         raise OptionError(
-            "fit needs a positive width and height in millimetres, such as 277x190, or a sheet such as A4, not "
+            "`fit` needs a positive width and height in millimetres, such as 277x190, or a sheet such as A4, not "
             f"{typed_value(fit, 'x')}"
         )
     if page is not None:
@@ -201,7 +201,7 @@ def _parameters(values: Any) -> None:
 def _window(window: Any) -> None:
     if not _is_vector(window, 4) or max(map(abs, window)) > LARGEST_FIT:
         raise OptionError(
-            f"window needs x0,y0,x1,y1 in millimetres, four numbers of at most {typed(LARGEST_FIT, 8)}, "
+            f"`window` needs x0,y0,x1,y1 in millimetres, four numbers of at most {typed(LARGEST_FIT, 8)}, "
             f"not {typed_value(window)}"
         )
     x0, y0, x1, y1 = window
@@ -217,11 +217,11 @@ def _perspective(camera: Any) -> None:
         raise OptionError(f"perspective needs an hlr.Perspective, not {camera!r}")
     for name, point in (("eye", camera.eye), ("target", camera.target)):
         if point is not None and not _is_vector(point, 3):
-            raise OptionError(f"{name} needs three finite numbers in millimetres, not {typed_value(point)}")
+            raise OptionError(f"`{name}` needs three finite numbers in millimetres, not {typed_value(point)}")
         if point is not None and max(map(abs, point)) > FARTHEST:
             most = typed(FARTHEST, 13)
             raise OptionError(
-                f"{name} {typed_value(point)} is too far away: give numbers of at most {most} millimetres"
+                f"`{name}` {typed_value(point)} is too far away: give numbers of at most {most} millimetres"
             )
     if camera.fov is not None and (not is_real(camera.fov) or not NARROWEST <= camera.fov <= WIDEST):
         raise OptionError(

@@ -54,7 +54,7 @@ def check_directions(views: Sequence[View], up: Vector | None, perspective: Pers
         raise ViewError(f"{len(views)} views from one eye would be the same: give one view, or no eye")
     if perspective.target is None:
         if up is not None:
-            normalized(up, "up")
+            normalized(up, "`up`")
         return
     apart(perspective.eye, perspective.target, 0.0)
     way = [e - t for e, t in zip(perspective.eye, perspective.target, strict=True)]
@@ -101,7 +101,7 @@ def _aimed(view: View) -> tuple[Vector, Vector | None]:
 def axes(direction: Vector, up_hint: Vector | None) -> tuple[Vector, Vector]:
     """The unit vectors that point right and up on paper, world axes. Raises ViewError for an up along the view."""
     if up_hint is not None:
-        up = normalized(up_hint, "up")
+        up = normalized(up_hint, "`up`")
     elif abs(direction[2]) > 1.0 - 1e-12:
         # Looking along z, y points up: the top view turned by nothing.
         up = (0.0, 1.0 if direction[2] > 0.0 else -1.0, 0.0)
@@ -109,7 +109,7 @@ def axes(direction: Vector, up_hint: Vector | None) -> tuple[Vector, Vector]:
         up = (0.0, 0.0, 1.0)
     side = cross(up, direction)
     if max(map(abs, side)) < 1e-9:
-        raise ViewError("up is parallel to the view direction: give another direction for up")
+        raise ViewError("`up` is parallel to the view direction: give another direction")
     right = normalized(side, "right")
     # The cross product of unit vectors is a unit vector up to rounding.
     return right, normalized(cross(direction, right), "up")

@@ -48,7 +48,7 @@ def checked_section(section: Any) -> SectionPlace | dict[str, SectionPlace] | By
     keys = [(view, place is True, place) for view, place in found]
     if twice := next((key for key in keys if keys.count(key) > 1), None):
         view, _, place = twice
-        raise OptionError(f"section {view}{_told(place)} is asked for twice: give each plane once")
+        raise OptionError(f"`section` {view}{_told(place)} is asked for twice: give each plane once")
     names = [view for view, _ in found]
     return (dict(found) or None) if len(set(names)) == len(names) else tuple(found)
 
@@ -87,7 +87,7 @@ def check_sections(section: Any, views: Sequence[View], whole: Any = (), *, by_n
     cut = names if places is None else [name for name, _ in places]
     if spare := [name for name in whole if name not in cut]:
         raise OptionError(
-            f"whole {spare[0]} is none of the sections, {listed(dict.fromkeys(cut), 'and')}: leave it out"
+            f"`whole` {spare[0]} is none of the sections, {listed(dict.fromkeys(cut), 'and')}: leave it out"
         )
     directions = {name: directed(view)[1] for view, name in zip(views, names, strict=True)}
     for name, place in places if places is not None else [(name, section) for name in names]:
@@ -147,7 +147,7 @@ def _name(view: Any, option: str = "section") -> str:
         return directed(cast(View, view.strip().lower() if named else _vector(view)))[0]
     except (ViewError, TypeError, ValueError) as error:
         why = str(error).rstrip(".") if isinstance(error, ViewError) else f"{view!r} is no view"
-        raise OptionError(f"{option}: {why}") from None
+        raise OptionError(f"`{option}`: {why}") from None
 
 
 def _vector(view: Any) -> tuple[float, ...]:

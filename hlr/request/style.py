@@ -134,4 +134,4 @@ class Style:
         object.__setattr__(self, "dpi", checked_dpi(self.dpi))
         object.__setattr__(self, "size", checked_size(self.size))
         if self.dpi is not None and self.size is not None:
-            raise OptionError("size and dpi contradict one another: give one of them")
+            raise OptionError("`size` and `dpi` contradict one another: give one of them")

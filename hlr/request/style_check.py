@@ -35,7 +35,7 @@ def checked_color(name: str, value: Any) -> str | None:
         return CURRENT
     found = _color(value)
     if found is None:
-        raise OptionError(f"{name} needs a colour such as black, #1a2b3c or currentColor, not {value!r}")
+        raise OptionError(f"`{name}` needs a colour such as black, #1a2b3c or currentColor, not {value!r}")
     return found
 
 
@@ -45,7 +45,7 @@ def checked_background(value: Any) -> str | None:
         return None
     found = _color(value)
     if found is None:
-        raise OptionError(f"background needs a colour such as white or #1a2b3c, or none, not {value!r}")
+        raise OptionError(f"`background` needs a colour such as white or #1a2b3c, or none, not {value!r}")
     return found
 
 
@@ -87,7 +87,7 @@ def checked_dash(value: Any) -> tuple[float, float] | tuple[()] | None:
 def checked_dpi(value: Any) -> float | None:
     """Pixels per inch; None stays."""
     if value is not None and (not is_finite(value) or not 1.0 <= value <= MOST_DPI):
-        raise OptionError(f"dpi needs pixels per inch, 1 to {MOST_DPI:g}, not {value!r}")
+        raise OptionError(f"`dpi` needs pixels per inch, 1 to {MOST_DPI:g}, not {value!r}")
     return None if value is None else float(value)
 
 
@@ -102,7 +102,7 @@ def checked_size(value: Any) -> tuple[int, int] | None:
         ):
             return (int(wide), int(high))
     shown = typed_value(value, "x")
-    raise OptionError(f"size needs a width and height in pixels, each 1 to {MOST_PIXELS_A_SIDE}, not {shown}")
+    raise OptionError(f"`size` needs a width and height in pixels, each 1 to {MOST_PIXELS_A_SIDE}, not {shown}")
 
 
 def check_one_of(name: str, value: Any, allowed: tuple[Any, ...]) -> None:

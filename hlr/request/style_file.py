@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from hlr.common.toml import parsed
-from hlr.errors import OptionError
+from hlr.errors import OptionError, respelled
 from hlr.request.style import LineRule, Style
+from hlr.request.style_check import checked_color
 from hlr.request.styles import STYLES
 from hlr.tables.entry import listed
 from hlr.tables.line_classes import LINE_CLASSES
@@ -112,6 +113,7 @@ def overridden(
     if color is not None:
         lines = (*(replace(rule, color=None) for rule in lines), LineRule(color=color))
     if hidden_color is not None:
+        hidden_color = checked_color("hidden_color", hidden_color)
         lines = (*_visible_colors(lines), LineRule(visible=False, color=hidden_color))
     return replace(style, lines=lines, **whole)
 
@@ -190,8 +192,8 @@ def _names() -> str:
 
 @contextmanager
 def _naming(where: str) -> Iterator[None]:
-    """Errors about a value say where it stands."""
+    """Errors about a value say where it stands, and name its key as it is."""
     try:
         yield
     except OptionError as error:
-        raise OptionError(f"{where}: {error}") from None
+        raise OptionError(f"{where}: {respelled(str(error), _key)}") from None

@@ -95,7 +95,7 @@ def _only_of_scripts(given: Mapping[str, Any], takes: tuple[str, ...], what: str
             raise OptionError(f"{_OF_SCRIPTS[name]} of a script, and {what} is no script: leave it out.")
 
 
-_OF_SCRIPTS = {"var": "var names a variable", "parameters": "parameters are variables"}
+_OF_SCRIPTS = {"var": "`var` names a variable", "parameters": "`parameters` names variables"}
 
 
 def _opened(reader: Reader, thing: Any, name: str, **given: Any) -> Source:

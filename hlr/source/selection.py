@@ -88,7 +88,7 @@ def matching(patterns: Sequence[str], source: Source, option: str) -> set[str]:
         some = {name for name in names if any(matches(each, pattern) for each in (name, *above.get(name, ())))}
         if not some:
             known = list(dict.fromkeys((*names, *(each for assemblies in above.values() for each in assemblies))))
-            raise OptionError(f'{option} "{pattern}" matches no part: {suggestion(pattern, known)}.')
+            raise OptionError(f'`{option}` "{pattern}" matches no part: {suggestion(pattern, known)}.')
         found |= some
     return found
 

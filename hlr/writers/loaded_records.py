@@ -13,7 +13,7 @@ from hlr.drawing.drawing import Accuracy
 from hlr.drawing.line import Line
 from hlr.drawing.notes import Note
 from hlr.drawing.page import Page
-from hlr.errors import OptionError
+from hlr.errors import OptionError, respelled
 from hlr.request.effect import Decision
 from hlr.request.style import LineRule, Style
 from hlr.tables.line_classes import LINE_CLASSES, Kind, names
@@ -138,7 +138,7 @@ def _style(values: Any) -> Style:
         lines = {"lines": tuple(LineRule(**rule) for rule in values["lines"])} if "lines" in values else {}
         return Style(**{**values, **lines})
     except OptionError as error:
-        raise ValueError(f"style: {error}") from None
+        raise ValueError(f"style: {respelled(str(error), str)}") from None
 
 
 def _reached(entry: dict[str, Any] | None, accuracy: Accuracy) -> Reached | None:

@@ -91,9 +91,9 @@ def test_a_view_is_drawn_whole_besides_its_section(tmp_path, section, arrange):
 @pytest.mark.parametrize(
     ("section", "told"),
     [
-        ([["left", 5], ["left", 5.0]], "section left@5 is asked for twice: give each plane once"),
+        ([["left", 5], ["left", 5.0]], "`section` left@5 is asked for twice: give each plane once"),
         ([["left", 5], ["left", 6, 7]], "section needs pairs of a view and its place"),
-        ([["left", 5], ["lft", 6]], "section: no view is called 'lft'"),
+        ([["left", 5], ["lft", 6]], "`section`: no view is called 'lft'"),
         ([["left", 5], ["right", 6]], "section right is none of the views, front and left: add it to them"),
     ],
 )
@@ -118,7 +118,7 @@ def test_the_order_of_sections_is_part_of_what_is_asked_for(tmp_path):
         ({"section": True, "arrange": "first-angle"}, "a page of several views has sections by name"),
         ({"uncut": ["bolt"]}, "`uncut` is for parts of a section"),
         ({"whole": ["front"]}, "`whole` is for the views of sections"),
-        ({"section": {"front": True}, "whole": ["top"]}, "whole top is none of the sections, front"),
+        ({"section": {"front": True}, "whole": ["top"]}, "`whole` top is none of the sections, front"),
         ({"section": {"front": True}, "whole": ["front"], "crease": 999}, "crease 999 is not a crease angle"),
         ({"section": {"front": True}, "uncut": ["bolt"], "crease": 999}, "crease 999 is not a crease angle"),
     ],

@@ -13,7 +13,7 @@ BOX = str(Path(__file__).parents[1] / "data" / "freecad" / "box.step")
         (("draw", BOX, "--dpi", "1e9"), "'--dpi': 1000000000 is out of range: give a number from 1 to 10000 (see"),
         (("draw", BOX, "--line-width", "0.001"), "0.001 is out of range: give a number from 0.01 to 100 (see"),
         (("draw", BOX, "--crease", "-1e-7"), "-0.0000001 is out of range: give a number from 0 to 180 (see"),
-        (("draw", BOX, "--fov", "180"), "180 is out of range: give a number above 0 and below 180 (see"),
+        (("draw", BOX, "--fov", "180"), "180 is out of range: give a number from 0.01 to 170 (see"),
         (("draw", BOX, "--accuracy", "0.0"), "'--accuracy': 0 is out of range: give a number above 0 (see"),
         (("draw", BOX, "--accuracy", "fine"), "'--accuracy': 'fine' is not a number (see"),
         (("draw", BOX, "--accuracy", "nan"), "'--accuracy': 'nan' is not a number (see"),

@@ -50,9 +50,9 @@ def test_what_draw_refuses_is_refused_in_the_same_words(chosen):
 
 def test_two_drawings_leave_no_choice():
     drawn = hlr.draw(scene(), view="front", scale=1)
-    with pytest.raises(OptionError, match=r"^only is for a model, and both sides are drawings: leave it out, or"):
+    with pytest.raises(OptionError, match=r"^`only` is for a model, and both sides are drawings: leave it out, or"):
         compare(drawn, drawn, only=["nut"])
-    with pytest.raises(OptionError, match=r"^hide and var are for a model, .*: leave them out"):
+    with pytest.raises(OptionError, match=r"^`hide` and `var` are for a model, .*: leave them out"):
         compare(drawn, drawn, hide=["nut"], var="a")
     with pytest.raises(OptionError, match=r"^compare\(\) has no option 'onyl': did you mean only\?"):
         compare(drawn, drawn, onyl=["nut"])

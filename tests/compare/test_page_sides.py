@@ -187,7 +187,7 @@ def test_pages_and_views_that_are_not_there_are_refused(tmp_path):
 
 
 def test_beside_a_page_the_pages_of_a_document_are_named(tmp_path):
-    why = 'box.FCStd is drawn in one: to compare a page of that document, give page, on the command line --page: "Page"'
+    why = 'box.FCStd is drawn in one: to compare a page of that document, give `page`: "Page"'
     with pytest.raises(OptionError, match=f"is a page of 3 views, and the model of {why}"):
         compare(page(PLACES), document(tmp_path))
 

@@ -64,7 +64,7 @@ def test_svg_knows_what_is_up(tmp_path):
     [
         ({"projectionDir": (0, 0, 0)}, "projectionDir"),
         ({"up": "north"}, "up needs three finite numbers"),
-        ({"up": (0, 0, 2)}, "up is parallel"),
+        ({"up": (0, 0, 2)}, "`up` is parallel"),
         ({"doc_units": 99}, "doc_units needs a number of DXF"),
         ({"fname": "no/such/folder/a.dxf"}, "does not exist"),
     ],

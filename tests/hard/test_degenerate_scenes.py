@@ -68,7 +68,7 @@ def test_all_corners_on_one_line_that_points_at_the_viewer():
 
 @pytest.mark.parametrize("up", [(1, -1, 1), (-2, 2, -2), (1e-200, -1e-200, 1e-200)])
 def test_up_parallel_to_the_direction_is_refused_in_words(up):
-    with pytest.raises(hlr.ViewError, match="up is parallel to the view direction: give another direction for up"):
+    with pytest.raises(hlr.ViewError, match="`up` is parallel to the view direction: give another direction"):
         hlr.draw(face(*CORNERS), "iso", up=up, **AT_SIZE)
 
 

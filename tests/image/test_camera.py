@@ -120,13 +120,13 @@ def test_views_that_are_none(view, words):
     ("view", "up"), [("top", (0, 0, 1)), ("front", (0, -2, 0)), ((1, -1, 1), (-3, 3, -3)), ("top", (0, 0, 1e-200))]
 )
 def test_up_along_the_view_is_refused(view, up):
-    with pytest.raises(ViewError, match="up is parallel to the view direction"):
+    with pytest.raises(ViewError, match="`up` is parallel to the view direction"):
         camera(view, up=up)
 
 
 @pytest.mark.parametrize("up", [(0, 0, 0), (math.nan, 0, 0), (1, 2)])
 def test_an_up_that_is_none_is_refused(up):
-    with pytest.raises(ViewError, match=r"up (is zero|needs three)"):
+    with pytest.raises(ViewError, match=r"`up` (is zero|needs three)"):
         camera("front", up=up)
 
 

@@ -119,7 +119,7 @@ def test_parts_may_stay_whole():
     # The whole shaft comes forward of the cut bush, and shows its outline in it.
     ahead = np.concatenate([line.points3 for line in some.lines if line.part == 0])[:, 1]
     assert ahead.min() == pytest.approx(-5.0, abs=0.05)
-    with pytest.raises(OptionError, match='uncut "bolt" matches no part: there are "shaft", "bush"'):
+    with pytest.raises(OptionError, match='`uncut` "bolt" matches no part: there are "shaft", "bush"'):
         section(assembly, uncut=("bolt",))
 
 

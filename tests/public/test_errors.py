@@ -53,7 +53,7 @@ def test_any_numbers_as_options(**options):
 
 
 def test_a_size_so_small_that_the_scale_is_zero():
-    with pytest.raises(HlrError, match="fit needs"):
+    with pytest.raises(HlrError, match="`fit` needs"):
         hlr.draw(BOX, "front", fit=(1.0, 5e-324))
 
 
@@ -158,10 +158,10 @@ WRONG = [
     ({"page": (15.0, 300.0)}, "a page of 15x300 mm cannot be drawn on"),
     ({"fit": "B4"}, "no page is called 'B4'"),
     ({"fit": "A4", "page": "A3"}, "`page` and `fit` both name a sheet"),
-    ({"fit": 5}, "fit needs .* not 5"),
-    ({"fit": (1.0,)}, "fit needs"),
-    ({"fit": (100.0, 100.0, 100.0)}, "fit needs"),
-    ({"fit": ("a", "b")}, "fit needs"),
+    ({"fit": 5}, "`fit` needs .* not 5"),
+    ({"fit": (1.0,)}, "`fit` needs"),
+    ({"fit": (100.0, 100.0, 100.0)}, "`fit` needs"),
+    ({"fit": ("a", "b")}, "`fit` needs"),
     ({"accuracy": "fine"}, "accuracy 'fine'"),
     ({"crease": None}, "crease None"),
     ({"up": 5}, "up needs"),
@@ -170,8 +170,8 @@ WRONG = [
     ({"threads": 10**30}, "1000000 threads|0 threads"),
     ({"hidden": "no"}, "hidden is yes or no"),
     ({"perspective": True}, "perspective needs"),
-    ({"perspective": Perspective(eye=(1.0, 2.0))}, "eye needs"),
-    ({"perspective": Perspective(eye=(1.0, 2.0, "a"))}, "eye needs"),
+    ({"perspective": Perspective(eye=(1.0, 2.0))}, "`eye` needs"),
+    ({"perspective": Perspective(eye=(1.0, 2.0, "a"))}, "`eye` needs"),
     ({"perspective": Perspective(fov="wide")}, "field of view of 'wide'"),
     ({"view": None}, "None is no view"),
     ({"view": 5}, "5 is no view"),

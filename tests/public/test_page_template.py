@@ -139,8 +139,11 @@ def test_what_is_no_template_is_refused(template, changes, words):
         ({"options": hlr.Options(page="A3")}, "a template has a size of its own: leave out `page`, or `template`"),
         ({"room": (0, 0, 400, 100)}, "the room 0,0,400,100 leads out of a page of 297 x 210 mm"),
         ({"room": (50.0, 0.0, 20.0, 100.0)}, "millimetres, such as 20,60,287,200, not 50,0,20,100"),
-        ({"room": "A4"}, "room needs two corners in millimetres"),
-        ({"template": None, "texts": {"TITLE": "x"}}, "texts are for the fields of a template"),
+        ({"room": "A4"}, "`room` needs two corners in millimetres"),
+        (
+            {"template": None, "texts": {"TITLE": "x"}},
+            "`texts` is for the fields of a template: give `template` as well",
+        ),
         ({"texts": "TITLE"}, "texts are needed by the keys of fields, such as {'TITLE': 'Bracket'}, not 'TITLE'"),
         ({"texts": {"TITLE": "a\x07b"}}, r"the text for TITLE has the character '\x07', which SVG cannot hold"),
         ({"texts": {"TITLE": "a\udcffb"}}, r"the text for TITLE has the character '\udcff', which SVG cannot hold"),

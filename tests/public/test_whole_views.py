@@ -162,10 +162,10 @@ def test_one_drawing_is_no_view_and_section(model):
     ("options", "message"),
     [
         ({"whole": ["left"]}, "`whole` is for the views of sections: give `section` as well, or leave it out"),
-        ({"section": {"left": 5}, "whole": ["top"]}, "whole top is none of the sections, left: leave it out"),
+        ({"section": {"left": 5}, "whole": ["top"]}, "`whole` top is none of the sections, left: leave it out"),
         ({"section": {"left": 5}, "whole": 7}, r'whole needs a list of views, such as \["left"\], not 7'),
-        ({"section": {"left": 5}, "whole": "lft"}, "whole: no view is called 'lft'"),
-        ({"section": {"left": 5}, "whole": [7]}, "whole: 7 is no view"),
+        ({"section": {"left": 5}, "whole": "lft"}, "`whole`: no view is called 'lft'"),
+        ({"section": {"left": 5}, "whole": [7]}, "`whole`: 7 is no view"),
     ],
 )
 def test_what_cannot_be_is_refused(model, options, message):

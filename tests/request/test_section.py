@@ -75,7 +75,7 @@ def test_what_is_no_pair_is_refused_among_pairs(other):
 
 @pytest.mark.parametrize("view", ["frnt", "1,2", "1,x,2", (0, 0, 0), 7])
 def test_a_section_of_no_view_is_refused(view):
-    with pytest.raises(hlr.OptionError, match=r"^section: "):
+    with pytest.raises(hlr.OptionError, match=r"^`section`: "):
         form({view: True})
 
 
@@ -147,7 +147,7 @@ def test_views_that_are_cut_twice_are_added_once():
     ],
 )
 def test_a_plane_is_given_once(section, told):
-    with pytest.raises(hlr.OptionError, match=rf"^section {told} is asked for twice: give each plane once"):
+    with pytest.raises(hlr.OptionError, match=rf"^`section` {told} is asked for twice: give each plane once"):
         form(section)
 
 

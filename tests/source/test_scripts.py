@@ -240,5 +240,5 @@ def test_a_parameter_that_a_script_has_not_is_refused(script, parameters, messag
 
 def test_only_scripts_have_parameters(tmp_path):
     (tmp_path / "a.off").write_text("OFF")
-    with pytest.raises(OptionError, match=r"parameters are variables of a script, and a\.off is no script"):
+    with pytest.raises(OptionError, match=r"`parameters` names variables of a script, and a\.off is no script"):
         open_source(tmp_path / "a.off", parameters={"size": 1})

@@ -80,7 +80,7 @@ def test_assemblies_of_a_step_file(cached, tmp_path, monkeypatch):
     one, other = (parts(AS1, only=[f"L-bracket-assembly_{number}"]) for number in (1, 2))
     assert len(one) == len(other) == 7 and set(one) & set(other) == set() and set(one) | set(other) == set(both)
     assert parts(AS1, hide=["*-assembly"]) == ["plate"]
-    with pytest.raises(OptionError, match='only "rod-asembly" matches no part: perhaps "rod-assembly"'):
+    with pytest.raises(OptionError, match='`only` "rod-asembly" matches no part: perhaps "rod-assembly"'):
         parts(AS1, only=["rod-asembly"])
 
 
@@ -106,7 +106,7 @@ def test_an_assembly_of_cadquery_in_memory_goes_by_its_name():
     everything = parts(assembly())
     assert parts(assembly(), only=["all"]) == everything
     assert parts(assembly(), only=["all"], hide=["sub"]) == ["plate", "nut"]
-    with pytest.raises(OptionError, match='only "al" matches no part: perhaps "all"'):
+    with pytest.raises(OptionError, match='`only` "al" matches no part: perhaps "all"'):
         parts(assembly(), only=["al"])
 
 
@@ -151,8 +151,8 @@ def test_it_holds_for_every_kind_of_picture():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"only": ["blot"]}, 'only "blot" matches no part: perhaps "bolt"'),
-        ({"hide": ["zzz"]}, 'hide "zzz" matches no part: there are "bolt", "nut", "plate"'),
+        ({"only": ["blot"]}, '`only` "blot" matches no part: perhaps "bolt"'),
+        ({"hide": ["zzz"]}, '`hide` "zzz" matches no part: there are "bolt", "nut", "plate"'),
         ({"hide": ["*"]}, "no part would be left"),
         ({"only": "bolt"}, "needs a list"),
         ({"hide": [1]}, "needs a list"),

@@ -40,7 +40,7 @@ class Choice:
     def check_of_models(self, drawn: tuple[bool, bool]) -> None:
         """Raise OptionError where something is chosen, and both sides are drawings. drawn: whether each is one."""
         if all(drawn) and self.given:
-            names, them = listed(self.given, "and"), "it" if len(self.given) == 1 else "them"
+            names, them = listed([f"`{name}`" for name in self.given], "and"), "it" if len(self.given) == 1 else "them"
             raise OptionError(
                 f"{names} {'is' if them == 'it' else 'are'} for a model, and both sides are drawings: leave {them} "
                 "out, or name a model in place of one"

@@ -163,7 +163,7 @@ def _no_page(given: Any) -> str:
     if isinstance(given, str | os.PathLike) and Path(given).suffix.lower() == ".fcstd":
         names = [f'"{name}"' for name, _ in page_names(given)]
     if names:
-        which = f"give page, on the command line --page: {listed(names, 'or')}"
+        which = f"give `page`: {listed(names, 'or')}"
         return f"and the model of {Path(given).name} is drawn in one: to compare a page of that document, {which}"
     return (
         "and does not say how the model is seen in them, as the SVG and JSON of hlr draw --arrange do: draw it anew as "

@@ -138,7 +138,7 @@ def _along(camera: Camera, source: Source, name: str) -> tuple[int, Floats]:
     axis = int(np.argmax(across))
     if across[axis] < 1.0 - ALONG:
         raise OptionError(
-            f"section {name} steps along an axis, and none runs across the view: leave out its steps, or up"
+            f"section {name} steps along an axis, and none runs across the view: leave out its steps, or `up`"
         )
     return axis, up[axis]
 
