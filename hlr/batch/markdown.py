@@ -35,7 +35,7 @@ def document(found: dict[str, Any]) -> bytes:
         _changed(found),
         _table(
             "Stale",
-            ("drawing", "its source, which is gone"),
+            ("drawing", "its source"),
             [(s["file"], s["source"]) for s in found.get("stale", ())],
         ),
         _table("Failed", ("source", "why"), failed),

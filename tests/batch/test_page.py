@@ -15,6 +15,7 @@ from hlr.batch.page.scripts import data
 from hlr.batch.plan import plan
 from hlr.batch.report import write
 from hlr.batch.run import run
+from hlr.batch.stale import earlier
 
 HOSTILE = "</script><script>alert(1)</script>\"'<img src=x onerror=alert(2)>&.step"
 
@@ -67,7 +68,11 @@ def test_an_unchanged_drawing_keeps_its_script_when_the_page_is_made_anew(tmp_pa
 
 def test_no_name_becomes_markup(tmp_path):
     found = report(
-        source(HOSTILE, drawing("a.svg", view=HOSTILE, warning=HOSTILE)), source("b", error=HOSTILE), gone=[HOSTILE]
+        source(HOSTILE, drawing("a.svg", view=HOSTILE, warning=HOSTILE)),
+        source("b", error=HOSTILE),
+        gone=[HOSTILE],
+        others=[{"file": f"{HOSTILE}.svg", "source": HOSTILE}],
+        stale=[{"file": f"{HOSTILE}.png", "source": f"gone {HOSTILE}"}],
     )
     page = written(found, tmp_path)
     text = page.read_text()
@@ -96,3 +101,37 @@ def test_cards_say_how_it_went():
     assert (second.state, failed.state, failed.error) == ("warned", "failed", "no.")
     assert (plain.name, plain.picture, plain.svg) == ("c size=3, front", "", "")
     assert len({card.key for card in (first, second, failed, plain)}) == 4
+
+
+def test_drawings_of_earlier_runs_are_told_apart(tmp_path):
+    others = [{"file": f"sub/b-iso.{ending}", "source": "b.step"} for ending in ("pdf", "svg")]
+    found = report(source("a", drawing("a.svg")), others=others, stale=[{"file": "c.dxf", "source": "gone.step"}])
+    _, other, stale = cards(found)
+    assert (other.name, other.state, other.svg) == ("b.step, b-iso", "earlier", "sub/b-iso.svg")
+    assert other.details["files"] == [["svg", "./sub/b-iso.svg"], ["pdf", "./sub/b-iso.pdf"]]
+    assert (stale.name, stale.state, stale.picture) == ("gone.step, c", "stale", "")
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub/b-iso.svg").write_text("<svg/>")
+    text = written(found, tmp_path).read_text()
+    assert "Earlier <b>1</b>" in text and "Stale <b>1</b>" in text
+    assert text.count("<time>") == 1
+    # Its script is there, and has the name that it had when the drawing was one of the run.
+    before = cards(report(source("b", drawing("sub/b-iso.svg"))))[0].key
+    assert f"{before}.js" in scripts_of(tmp_path / "index.html")
+
+
+def test_a_run_of_a_part_of_a_batch_keeps_the_others_on_the_page(tmp_path):
+    for name in ("a", "b"):
+        tetrahedron(tmp_path / f"{name}.off")
+
+    def page(files):
+        asked = plan(manifest_of({"views": ["iso"], "files": files}, tmp_path), tmp_path / "out")
+        done = run(asked, Kept(None, Digests()), FakePool(), Silent())
+        write(done, Digests(), {}, earlier=earlier(asked))
+        return (tmp_path / "out/index.html").read_text()
+
+    assert "Earlier" not in page(["a.off", "b.off"])
+    for _ in range(2):
+        text = page(["a.off"])
+        assert text.count('<li class="card"') == 2 and text.count('data-state="earlier"') == 1
+    assert "Earlier" not in page(["b.off", "a.off"])

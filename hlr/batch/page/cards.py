@@ -1,15 +1,22 @@
-"""What the page shows of a batch: a card for each drawing, and one for each source that could not be drawn."""
+"""What the page shows of a batch: a card for each drawing, and one for each source that could not be drawn.
+
+After them come the drawings of earlier runs that are still there, of which only files and sources are known.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from hashlib import blake2b
+from pathlib import PurePosixPath
 from typing import Any
 from urllib.parse import quote
 
 from hlr.batch.junit import title
 from hlr.drawing.scale import ratio
+
+EARLIER = {"others": "earlier", "stale": "stale"}
+"""Where a report lists drawings of earlier runs, and the state of their cards."""
 
 PICTURES = ("svg", "png")
 """Formats that a browser shows as a picture, the better one first."""
@@ -21,12 +28,12 @@ class Card:
 
     key      letters and digits that only this card has, the same in every run
     source   path of the source, and the parameters of a variant
-    view     name of the view, or its direction; empty where the source failed
-    state    "drawn", "warned" or "failed"
+    view     name of the view, or its direction; of an earlier run the name of the file; empty where the source failed
+    state    "drawn", "warned" or "failed"; of an earlier run "stale" where the batch draws it no more, else "earlier"
     change   against the baseline: "unchanged", "changed", "new"; empty without one
     picture  address of a picture; empty where no format is one
     svg      path of the SVG, seen from the folder of outputs; empty where there is none
-    seconds  that the drawing took, by the clock
+    seconds  that the drawing took, by the clock; 0: of an earlier run, where nobody knows
     error    why there is no drawing
     details  what the viewer shows besides
     """
@@ -47,6 +54,11 @@ class Card:
         """What the card is called."""
         return f"{self.source}, {self.view}" if self.view else self.source
 
+    @property
+    def is_earlier(self) -> bool:
+        """Whether an earlier run has drawn it."""
+        return self.state in EARLIER.values()
+
     def data(self) -> dict[str, Any]:
         """What the script of the page knows of it."""
         return {
@@ -62,7 +74,8 @@ class Card:
 
 def cards(found: dict[str, Any]) -> list[Card]:
     """The cards, in the order of the manifest. found: the report, as `manifest.json` has it."""
-    return [card for source in found["sources"] for card in _of_source(source)]
+    own = [card for source in found["sources"] for card in _of_source(source)]
+    return [*own, *(card for key, state in EARLIER.items() for card in _of_earlier(found.get(key, ()), state))]
 
 
 def address(path: str) -> str:
@@ -78,25 +91,47 @@ def _of_source(source: dict[str, Any]) -> Iterator[Card]:
         yield _of_drawing(name, drawing)
 
 
+def _of_earlier(rows: Sequence[dict[str, str]], state: str) -> Iterator[Card]:
+    """A card for each drawing of earlier runs, whatever its formats. rows: a file and its source each."""
+    drawings: dict[tuple[str, str], dict[str, str]] = {}
+    for row in rows:
+        path = PurePosixPath(row["file"])
+        drawings.setdefault((row["source"], str(path.with_suffix(""))), {})[path.suffix[1:].lower()] = row["file"]
+    for (source, name), files in drawings.items():
+        pictures_first = {format: files[format] for format in (*PICTURES, *files) if format in files}
+        yield _card(pictures_first, source, PurePosixPath(name).name, state)
+
+
 def _of_drawing(name: str, drawing: dict[str, Any]) -> Card:
-    files, change = drawing["files"], drawing.get("change") or {}
-    pictures = [files[format] for format in PICTURES if format in files]
-    return Card(
-        key=_key(next(iter(files.values()))),
-        source=name,
-        view=str(drawing["view"]),
-        state="warned" if any(note["warning"] for note in drawing["notes"]) else "drawn",
+    change = drawing.get("change") or {}
+    state = "warned" if any(note["warning"] for note in drawing["notes"]) else "drawn"
+    card = _card(drawing["files"], name, str(drawing["view"]), state)
+    return replace(
+        card,
         seconds=drawing["seconds"].get("total", 0.0),
         change=change.get("state", ""),
-        picture=address(pictures[0]) if pictures else "",
-        svg=files.get("svg", ""),
         details={
-            "files": [[format, address(path)] for format, path in files.items()],
+            **card.details,
             "notes": [[note["text"], note["warning"]] for note in drawing["notes"]],
             "seconds": drawing["seconds"],
             "facts": _facts(drawing),
             "change": _change(change),
         },
+    )
+
+
+def _card(files: dict[str, str], source: str, view: str, state: str) -> Card:
+    """The card of a drawing with these files, by format, without what only its own run knows."""
+    pictures = [files[format] for format in PICTURES if format in files]
+    return Card(
+        key=_key(next(iter(files.values()))),
+        source=source,
+        view=view,
+        state=state,
+        seconds=0.0,
+        picture=address(pictures[0]) if pictures else "",
+        svg=files.get("svg", ""),
+        details={"files": [[format, address(path)] for format, path in files.items()]},
     )
 
 

@@ -63,9 +63,14 @@ def _html(found: dict[str, Any], shown: list[Any], made_of: str) -> bytes:
 
 
 def _filters(shown: list[Any]) -> list[tuple[str, str, int]]:
-    """(state, what it is called, number of cards) of each filter; those for a baseline only where there is one."""
+    """(state, what it is called, number of cards) of each filter; for earlier runs and a baseline only where needed."""
+    from hlr.batch.page.cards import EARLIER
+
     rows = [("", "All", len(shown))]
     rows += [(state, state.title(), sum(card.state == state for card in shown)) for state in ("failed", "warned")]
+    for state in EARLIER.values():
+        if count := sum(card.state == state for card in shown):
+            rows.append((state, state.title(), count))
     if any(card.change for card in shown):
         rows += [(state, state.title(), sum(card.change == state for card in shown)) for state in ("changed", "new")]
     return rows
