@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from hlr.batch.run import source_size
 from hlr.common.printable import printable
+from hlr.errors import counted
 
 from .signals import Stopped
 from .streams import say
@@ -139,8 +140,8 @@ def told(plan: Plan, number: int, outcome: Outcome) -> str:
         return f"{title}: failed: {printable(' '.join(outcome.failure.message.split()))}"
     warnings = len({note["text"] for drawing in outcome.drawings for note in drawing["notes"] if note["warning"]})
     told = f", {warnings} warning{'s' if warnings > 1 else ''}" if warnings else ""
-    views = len(outcome.drawings)
-    return f"{title}: {views} view{'s' if views > 1 else ''}, {outcome.seconds:.1f} s{told}"
+    drawings = counted(len(outcome.drawings), "page" if plan.jobs[number].arrange else "view")
+    return f"{title}: {drawings}, {outcome.seconds:.1f} s{told}"
 
 
 def progress(quiet: bool) -> Lines:

@@ -44,8 +44,10 @@ def plan(pattern: str | None, source: str, views: Sequence[str], ending: str) ->
 
     pattern None: the source's name, in the current folder; a folder: the source's name and the view's, in it. Both get
     the ending. Raises OptionError where two views would have the same file, or a field is unknown; SourceError for a
-    source that is a folder.
+    source that is a folder, or has no name.
     """
+    if not source:
+        raise SourceError("the name of the source is empty: name a model file")
     if os.path.isdir(source):  # "." has no stem to name an output after
         raise SourceError(f"{source} is a folder: name a model file in it")
     if pattern is None:

@@ -42,7 +42,10 @@ CHANGED = 3
 @click.command(cls=Verb)
 @click.argument("sources", nargs=-1, metavar="[FOLDER | PATTERN... | hlr.toml]")
 @click.option(
-    "-o", "--output", metavar="FOLDER", help="Where to write. Default: what the manifest says, else drawings."
+    "-o",
+    "--output",
+    metavar="FOLDER",
+    help="Where to write. Default: what the manifest says, else drawings in the folder of the batch.",
 )
 @click.option(
     "--view", "views", type=ViewName(), metavar="NAME|X,Y,Z", multiple=True,

@@ -109,8 +109,9 @@ def compare(  # noqa: PLR0913 - one for each option of the command
 
     Each is an SVG, PDF, DXF or JSON file of hlr, or an SVG, PDF or DXF file of FreeCAD and other programs.
 
-    Or it is a model, which is drawn as the other side shows it; of two models both are drawn. Pages are compared view
-    by view. Places are told in mm on the paper of A.
+    Or it is a model, which is drawn as the other side shows it; of two models both are drawn. Two pages are compared
+    view by view; so are a page and a model, where the page is an SVG or JSON file of hlr. Places are told in mm on
+    the paper of A.
 
     \b
       hlr compare old.svg new.svg

@@ -52,6 +52,8 @@ def baseline_of(text: str, plan: Plan) -> Baseline:
     taken = next((file for file in files if PurePosixPath(file).parts[0] == FOLDER), None)
     if taken is not None:
         raise OptionError(f"{taken} lies where the baseline's drawings are copied to: choose another name for it")
+    if not text:
+        raise OptionError("the name of the baseline is empty: name a folder with earlier drawings, or git:REVISION")
     if text.startswith(GIT):
         return GitBaseline(plan.output, text.removeprefix(GIT))
     folder = Path(os.path.abspath(text))

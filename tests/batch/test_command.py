@@ -320,6 +320,16 @@ def test_what_an_arranged_page_cannot_have_is_refused_before_any_work(hlr_batch,
     assert not list(hlr_batch.folder.rglob("*.svg"))
 
 
+@pytest.mark.parametrize(
+    ("option", "words"), [("-o", "folder of outputs is empty"), ("--baseline", "baseline is empty")]
+)
+def test_a_folder_without_a_name_is_refused(hlr_batch, option, words):
+    tetrahedron(hlr_batch.folder / "part.off", 1)
+    done = hlr_batch("part.off", option, "")
+    assert done.returncode == 2 and done.stderr.startswith(f"hlr: the name of the {words}: name ")
+    assert [path.name for path in hlr_batch.folder.rglob("*")] == ["part.off"]
+
+
 def test_an_arranged_page_on_the_command_line(hlr_batch):
     tetrahedron(hlr_batch.folder / "part.off", 1)
     done = hlr_batch("part.off", "--arrange", "first-angle", "--list")
@@ -331,5 +341,6 @@ def test_an_arranged_page_as_json(hlr_batch):
     tetrahedron(hlr_batch.folder / "part.off", 1)
     done = hlr_batch("part.off", "--arrange", "first-angle", "--format", "json")
     assert done.returncode == 0, done.stderr
+    assert done.stderr.startswith("1/1 part.off: 1 page, ")
     found = json.loads((hlr_batch.folder / "drawings/part-first-angle.json").read_text("utf-8"))
     assert [view["name"] for view in found["views"]] == ["front", "top", "left", "iso"]

@@ -48,6 +48,11 @@ def test_an_option_that_was_not_typed_is_named_as_it_would_be():
     assert names == ["--param", "--text", "--see-through", "--perspective", "--only-in-python"]
 
 
+def test_a_source_without_a_name(hlr_real):
+    for verb in ("draw", "preview", "info"):
+        assert hlr_real(verb, "") == (2, "", "hlr: the name of the source is empty: name a model file.\n")
+
+
 def test_in_python():
     with pytest.raises(hlr.OptionError, match="leave out `report`, or `see_through`"):
         hlr.draw(BOX, see_through=True, report=True)
