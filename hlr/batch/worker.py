@@ -157,12 +157,16 @@ class _Running:
         self._process: psutil.Process | None = None
         self._since = time.monotonic()
 
-    def moved(self, pid: int) -> None:
-        """The job is done by this process from now on."""
+    def moved(self, pid: int | None) -> None:
+        """The job is done by this process from now on; None: by none for a while."""
         import psutil
 
-        with contextlib.suppress(psutil.Error):
-            self._process = psutil.Process(pid)
+        self._process = None
+        if pid is not None:
+            if self.verdict is not None:
+                _kill(pid)  # the process before it ended of itself, just when it was to be ended
+            with contextlib.suppress(psutil.Error):
+                self._process = psutil.Process(pid)
         self._since, self.times = time.monotonic(), StageTimes()
 
     def keep_within_limits(self) -> None:

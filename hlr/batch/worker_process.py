@@ -10,7 +10,7 @@ Where there is no `fork` (Windows), or where it is not safe after such imports (
 
 Messages to the pool::
 
-    ("at", pid)            this process now does the job
+    ("at", pid)            this process now does the job; None: none does, what it needs is imported
     ("stage", name)        a stage of the drawing begins
     ("ended", outcome)     the job is done
     ("crashed", code)      the child ended without an outcome: exit code, or minus the number of the signal
@@ -104,6 +104,8 @@ def _in_child(job: Job, writing: int, imported: set[str]) -> bool:
     send(writing, ("at", child))
     said = _pass_on(here, child, writing)
     os.close(here)
+    if said[0] == "needs":
+        send(writing, ("at", None))  # limits are for the job
     code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
     if said[0] != "ended" or said[1].failure is not None:
         left.kill()

@@ -3,6 +3,7 @@
 import os
 import re
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -13,7 +14,7 @@ from batch.models import tetrahedron
 
 from hlr.batch.job import Job, Outcome
 from hlr.batch.pool import LocalPool
-from hlr.batch.worker import Begun, Ended
+from hlr.batch.worker import Begun, Ended, _Running
 
 SCRIPTS = {
     "exits.py": "import os\nos._exit(3)\n",
@@ -66,6 +67,40 @@ def test_what_a_source_does_costs_that_source_alone(pool, tmp_path):
         else:
             assert outcome.failure is None and outcome.contents[0][0].startswith(b"<?xml")
             assert outcome.peak_memory_mb > 10.0 or sys.platform == "win32"
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="the worker itself imports nothing where it does not fork")
+@pytest.mark.parametrize(
+    ("then", "words"),
+    [
+        ("while True: pass", "part.py took longer than 3 s and was given up; the script itself ran"),
+        ("1 / 0", "Division"),
+    ],
+)
+def test_a_time_limit_is_for_what_follows_the_import_of_a_package(tmp_path, then, words):
+    (tmp_path / "modules").mkdir()
+    (tmp_path / "modules/build123d.py").write_text("import time\ntime.sleep(5)\n")
+    (tmp_path / "part.py").write_text(f"import build123d\n{then}\n")
+    pool = LocalPool(1, {"PYTHONPATH": str(tmp_path / "modules")})
+    try:
+        limited = replace(job(tmp_path, "part.py"), time_limit_s=3.0)
+        last = list(pool.run([limited], time.monotonic() + 60.0))[-1]
+    finally:
+        pool.close()
+    assert last.outcome is not None, "it ran on"
+    assert words in last.outcome.failure.message
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs POSIX signals")
+def test_what_was_given_up_ends_where_it_goes_on_in_another_process(tmp_path):
+    running = _Running(replace(job(tmp_path, "endless.py"), time_limit_s=0.0))
+    first, second = (subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE) for _ in range(2))
+    running.moved(first.pid)
+    first.communicate(b"\n")
+    running.keep_within_limits()
+    running.moved(second.pid)
+    assert (second.wait(10), running.verdict[0]) == (-signal.SIGKILL, "TimeLimit")
 
 
 @pytest.mark.slow
