@@ -40,8 +40,8 @@ def test_on_the_command_line(hlr_real, arguments, message):
 
 
 def test_an_option_that_was_not_typed_is_named_as_it_would_be():
-    from cli.commands.draw import draw
-    from cli.without_effect import Asked
+    from hlr.cli.commands.draw import draw
+    from hlr.cli.without_effect import Asked
 
     asked = Asked(draw.make_context("draw", [str(BOX)]))
     names = [asked.as_typed(name) for name in ("parameters", "texts", "see_through", "perspective", "only_in_python")]
