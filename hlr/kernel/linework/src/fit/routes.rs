@@ -62,7 +62,8 @@ pub struct OnCurve {
     pub bounds: [Vec2; 2],
 }
 
-/// Each line on the curve of its guide; None where another line of its chain takes its place. `meetings`: of intersection lines, sorted by their first coordinate.
+/// Each line on the curve of its guide; None where another line of its chain takes its place. `meetings`: of intersection
+/// lines, sorted by their first coordinate.
 pub fn on_curves(
     lines: &[Polyline],
     guides: &[Guide],

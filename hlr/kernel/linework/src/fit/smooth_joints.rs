@@ -10,7 +10,7 @@
 //! Close to the place of contact both run within the deflection of one another, so each may end a long way off it.
 
 use rayon::prelude::*;
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::junction::touching;
 use super::plane::{Vec2, dot, length, minus};
@@ -106,19 +106,26 @@ pub struct Grown {
 /// there altogether. True where nothing of a line is left.
 pub fn swallowed(routes: &mut [Route], all: &[Grown]) -> Vec<bool> {
     let mut gone = vec![false; routes.len()];
+    // Few chains have such lines, and few lines are of these chains.
+    let mut of_chain: FxHashMap<i32, Vec<usize>> = all.iter().map(|g| (routes[g.line].chain, Vec::new())).collect();
+    for (k, route) in routes.iter().enumerate() {
+        if let Some(lines) = of_chain.get_mut(&route.chain) {
+            lines.push(k);
+        }
+    }
     for &Grown { line, range: [from, to], .. } in all {
-        let chain = routes[line].chain;
+        let lines = of_chain.get(&routes[line].chain).into_iter().flatten();
         let slack = SAME_PLACE * (to - from).abs();
         let (low, high) = (from.min(to) - slack, from.max(to) + slack);
-        for (k, other) in routes.iter_mut().enumerate().filter(|(k, other)| *k != line && other.chain == chain) {
-            let Some((placed, ts)) = &mut other.curve else { continue };
+        for &k in lines.filter(|k| **k != line) {
+            let Route { visible, curve: Some((placed, ts)), .. } = &mut routes[k] else { continue };
             let last = ts.len() - 1;
             // Each polyline counts whole turns from its own start.
             let turns = placed.track.period.map_or(0.0, |p| ((0.5 * (ts[0] + ts[last] - low - high)) / p).round() * p);
             let inside = [ts[0], ts[last]].map(|t| (low..=high).contains(&(t - turns)));
             if inside == [true, true] {
                 gone[k] = true;
-            } else if inside != [false, false] && !other.visible {
+            } else if inside != [false, false] && !*visible {
                 ts[if inside[0] { 0 } else { last }] = to + turns;
             }
         }
