@@ -13,9 +13,9 @@
 use smallvec::SmallVec;
 
 use super::face::Face;
-use super::grazing::{Grazing, Turns, WALL, plane_normal, seen_edge_on, turns};
+use super::grazing::{Grazing, Turns, WALL, divided, plane_normal, seen_edge_on, turns};
 use super::side::{Side, on_triangle};
-use super::{Model, TIE};
+use super::Model;
 use hlr_brep::geometry::vector::{Vector, along, dot, sub};
 use hlr_visibility::scan::stretches::Beside;
 
@@ -24,33 +24,9 @@ pub fn grazed_crossing(model: &Model, e: usize, triangles: [i32; 2], out: &mut V
     let sides: SmallVec<[Side; 2]> = triangles.into_iter().filter_map(|t| curved_side(model, e, t)).collect();
     let found: SmallVec<[(&Side, Turns); 2]> =
         sides.iter().filter(|side| seen_edge_on(model, side)).map(|side| (side, turns(side))).collect();
-    let mut stops: SmallVec<[f64; 6]> = found.iter().flat_map(|(_, turns)| turns.iter().map(|turn| turn.0)).collect();
-    if stops.is_empty() {
-        return;
-    }
-    stops.extend([0.0, 1.0]);
-    stops.sort_by(f64::total_cmp);
-    stops.dedup();
-    for range in stops.windows(2) {
-        let range = [range[0], range[1]];
-        let beside = beside(model, e, triangles, &sides, 0.5 * (range[0] + range[1]));
-        for (side, turns) in &found {
-            let Some(f) = turns.iter().rev().find(|turn| turn.0 <= range[0]).map(|turn| turn.1) else { continue };
-            if f.abs() <= TIE {
-                continue;
-            }
-            out.push(Grazing {
-                edge: e as u32,
-                range,
-                face: side.number,
-                normals: range.map(|t| side.normal_at(t)),
-                front: f < 0.0,
-                beside,
-                dented: false,
-                rise: None,
-                crossed: Some(triangles),
-            });
-        }
+    let beside = |t: f64| beside(model, e, triangles, &sides, t);
+    for (_, _, stretch) in divided(e, &found, beside, |_| None) {
+        out.push(Grazing { crossed: Some(triangles), ..stretch });
     }
 }
 

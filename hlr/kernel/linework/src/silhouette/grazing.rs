@@ -77,40 +77,50 @@ pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], dents: &D
         |side: &Side| dented(model, side) || side.corners.iter().any(|&vertex| dents.contains(&(side.number, vertex)));
     let grazes = |side: &&Side| side.face.is_some() && (seen_edge_on(model, side) || dented(side));
     let found: SmallVec<[(&Side, Turns); 2]> = sides.iter().filter(grazes).map(|side| (side, turns(side))).collect();
-    if found.is_empty() {
-        return;
+    let off_border = |side: &Side| beyond(model, e, side.triangle);
+    let turning = found.iter().position(|(_, turns)| turns.len() > 1);
+    for (at, side, stretch) in divided(e, &found, |t| beside(model, e, around, sides, t), off_border) {
+        let rise = (turning == Some(at)).then(|| {
+            [0, 1].map(|k| rise(model, &[side.triangle], &on_edge(model, e, stretch.range[k]), &stretch.normals[k]))
+        });
+        out.push(Grazing { rise, dented: self::dented(model, side), ..stretch });
     }
+}
+
+/// The stretches of edge e at faces that turn over along it, in ascending order: each with the index of its face in
+/// `found`. beside: what the faces hide at one parameter. off_border: f of a face beside the edge, asked where the face
+/// is parallel to the line of sight along it.
+pub(super) fn divided<'s>(
+    e: usize,
+    found: &[(&'s Side<'s>, Turns)],
+    beside: impl Fn(f64) -> Beside,
+    off_border: impl Fn(&Side) -> Option<f64>,
+) -> SmallVec<[(usize, &'s Side<'s>, Grazing); 4]> {
+    let mut out = SmallVec::new();
     let mut stops: SmallVec<[f64; 6]> = found.iter().flat_map(|(_, turns)| turns.iter().map(|turn| turn.0)).collect();
+    if stops.is_empty() {
+        return out;
+    }
     stops.extend([0.0, 1.0]);
     stops.sort_by(f64::total_cmp);
     stops.dedup();
     for range in stops.windows(2) {
         let range = [range[0], range[1]];
-        let beside = beside(model, e, around, sides, 0.5 * (range[0] + range[1]));
-        let turning = found.iter().position(|(_, turns)| turns.len() > 1);
+        let beside = beside(0.5 * (range[0] + range[1]));
         for (at, (side, turns)) in found.iter().enumerate() {
             let Some(f) = turns.iter().rev().find(|turn| turn.0 <= range[0]).map(|turn| turn.1) else { continue };
-            let f = if f == 0.0 { beyond(model, e, side.triangle).unwrap_or(f) } else { f };
+            let f = if f == 0.0 { off_border(side).unwrap_or(f) } else { f };
             if f.abs() <= TIE {
                 continue;
             }
             let normals = range.map(|t| side.normal_at(t));
-            let rise = (turning == Some(at))
-                .then(|| [0, 1].map(|k| rise(model, &[side.triangle], &on_edge(model, e, range[k]), &normals[k])));
-            let (front, dented) = (f < 0.0, dented(side));
-            out.push(Grazing {
-                edge: e as u32,
-                range,
-                face: side.number,
-                normals,
-                front,
-                beside,
-                dented,
-                rise,
-                crossed: None,
-            });
+            let (edge, face, front) = (e as u32, side.number, f < 0.0);
+            let stretch =
+                Grazing { edge, range, face, normals, front, beside, dented: false, rise: None, crossed: None };
+            out.push((at, *side, stretch));
         }
     }
+    out
 }
 
 /// Whether the face is seen nearly edge-on, or turns over, anywhere along its border. The ends alone do not tell: along
