@@ -55,7 +55,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
     let Contour { crossings, mut folds, grazing } = contour(model, &values, stopped);
     folds.extend(behind(model, &values, stopped));
     let same = Same::new(&crossings, &folds, OUTLINE_GAP * model.chord);
-    let (across, lone) = over_triangles(&crossings);
+    let (across, lone) = over_triangles(&crossings, OUTLINE_GAP * model.chord);
     folds.extend(lone.into_iter().filter_map(|(t, c)| into_apex(model, &values, t, c, &crossings[c as usize])));
     let mut links: Vec<Link> = across
         .par_iter()
@@ -102,8 +102,8 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
 /// A triangle and its two crossings.
 type Crossed = (i32, [u32; 2]);
 
-/// Triangles with their two crossings, and those with one.
-fn over_triangles(crossings: &[Crossing]) -> (Vec<Crossed>, Vec<(i32, u32)>) {
+/// Triangles with their two crossings, and those with one. Crossings no farther apart than the gap are one place.
+fn over_triangles(crossings: &[Crossing], gap: f64) -> (Vec<Crossed>, Vec<(i32, u32)>) {
     let mut uses: Vec<(i32, u32)> = crossings
         .iter()
         .enumerate()
@@ -116,10 +116,30 @@ fn over_triangles(crossings: &[Crossing]) -> (Vec<Crossed>, Vec<(i32, u32)>) {
         match run {
             [one] => lone.push(*one),
             [one, two] => pairs.push((one.0, [one.1, two.1])),
+            [one, two, three] => {
+                let found = into_pole(crossings, [one.1, two.1, three.1], gap);
+                pairs.extend(found.into_iter().flatten().map(|ends| (one.0, ends)));
+            }
             _ => {}
         }
     }
     (pairs, lone)
+}
+
+/// Of the three crossings of a triangle at a pole, two are close to it: the silhouette from the third runs into them. Over
+/// the pole, f changes its sign with a parameter that has hardly any length there.
+fn into_pole(crossings: &[Crossing], three: [u32; 3], gap: f64) -> Option<[[u32; 2]; 2]> {
+    let apart = |a: usize, b: usize| {
+        let [p, q] = [a, b].map(|k| crossings[three[k] as usize].place.point);
+        length(&sub(&p, &q))
+    };
+    let between_others = |k: usize| apart((k + 1) % 3, (k + 2) % 3);
+    let far = (0..3).min_by(|&a, &b| between_others(a).total_cmp(&between_others(b)))?;
+    let (mut near, mut beyond) = ((far + 1) % 3, (far + 2) % 3);
+    if apart(far, beyond) < apart(far, near) {
+        (near, beyond) = (beyond, near);
+    }
+    (between_others(far) <= gap).then(|| [[three[far], three[near]], [three[near], three[beyond]]])
 }
 
 /// At an apex the normal turns with a parameter that has no length: along both sides of a triangle there, f keeps its
