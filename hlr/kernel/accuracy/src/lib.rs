@@ -80,8 +80,9 @@ pub const OUTLINE_WRINKLE: f64 = 15.0;
 pub const OUTLINE_FLAT: f64 = 0.25;
 /// Of the chord tolerance, of which a deflection has five: borders of one wall this close in the image may be one line.
 pub const OUTLINE_BEHIND: f64 = 10.0;
-/// Of the chord tolerance: a ridge of a surface that rises by less hides nothing of the valley behind it.
-pub const OUTLINE_VALLEY: f64 = 1.0;
+/// Of the chord tolerance, of which an accuracy has ten: a ridge of a surface that rises by less hides nothing of the
+/// valley behind it.
+pub const OUTLINE_VALLEY: f64 = 5.0;
 
 // Lines on their curves.
 

@@ -66,7 +66,7 @@ pub fn stretches(model: &Model, triangle: i32, face: &Face, from: Place, to: Pla
     let piece = |a: &Place, b: &Place, concave: bool| {
         let rise = |concave| [a, b].map(|at| rise(model, &[triangle], &at.point, &outward(&at.normal, concave)));
         let deeper = || if face.radial(a.uv) < face.radial(b.uv) { a } else { b };
-        let shallow = concave && face.has_wrinkles() && !hides(face, deeper(), chord);
+        let ridge = if concave && face.has_wrinkles() { ridge(face, deeper(), chord) } else { None };
         Stretch {
             from: a.point,
             to: b.point,
@@ -75,7 +75,7 @@ pub fn stretches(model: &Model, triangle: i32, face: &Face, from: Place, to: Pla
             source: -1,
             concave,
             rise: rise(concave),
-            shallow: shallow.then(|| rise(false)),
+            shallow: ridge.map(|ridge| rise(false).map(|corners| corners.max(ridge))),
         }
     };
     let mut out = Vec::with_capacity(places.len());
@@ -108,33 +108,35 @@ fn bends(face: &Face, places: &[Place], chord: f64) -> Vec<f64> {
 /// Steps in which a valley is crossed.
 const ACROSS: u32 = 16;
 
-/// Whether a surface that bends toward its normal at a place rises before it, as seen by the viewer, by more than the
-/// tolerance. A surface seen edge-on over a long way has valleys and ridges that nobody sees: there all is outline.
+/// How far the surface rises beyond a place at which it bends toward its normal, before it as seen by the viewer; None
+/// where that is more than the tolerance. A surface seen edge-on over a long way has valleys and ridges that nobody sees:
+/// there all is outline.
 ///
 /// ```text
 ///      viewer >- - - - - - - -.-.- - -     the ridge . hides the bottom of the valley v only if it is high
 ///                        ___.'   `.v__
 /// ```
-fn hides(face: &Face, place: &Place, chord: f64) -> bool {
+fn ridge(face: &Face, place: &Place, chord: f64) -> Option<f64> {
     let most = OUTLINE_VALLEY * chord;
     let bend = face.radial(place.uv).abs();
     if bend <= 0.0 {
-        return true;
+        return None;
     }
     let step = (2.0 * most / bend).sqrt() * 2.0 / f64::from(ACROSS);
-    let mut uv = place.uv;
+    let (mut uv, mut high) = (place.uv, 0.0f64);
     for _ in 0..ACROSS {
-        let Some(way) = face.along_sight(uv) else { return true };
+        let way = face.along_sight(uv)?;
         uv = [0, 1].map(|k| uv[k] - step * way[k]);
-        let (Some(f), point) = (face.f(uv), face.point(uv)) else { return true };
-        if dot(&sub(&point, &place.point), &place.normal) > most || !f.is_finite() {
-            return true;
+        let (f, point) = (face.f(uv)?, face.point(uv));
+        high = high.max(dot(&sub(&point, &place.point), &place.normal));
+        if high > most || !f.is_finite() {
+            return None;
         }
         if f < 0.0 {
-            return false;
+            return Some(high);
         }
     }
-    true
+    None
 }
 
 fn divide(face: &Face, a: &Place, b: &Place, chord: f64, depth: u32, out: &mut Vec<Place>) {
