@@ -43,6 +43,9 @@ pub const EDGE_IN_FACE: f64 = 0.1;
 /// Of the deflection: a wall, or another planar face, that reaches less far beyond a planar face stands on it, and has no
 /// line there but its own edge. In view depth that takes more, the more obliquely one looks: `CONTACT_PLANAR` is ten times as much.
 pub const FLUSH: f64 = 0.25;
+/// Of the contact depth: that at right angles to a surface. Two tessellations are off by one deflection each, which is this
+/// much; the rest is for surfaces seen obliquely.
+pub const CONTACT_AT_RIGHT_ANGLES: f64 = 0.4;
 /// Of the contact depth: what one face of a solid may dip into another face of the same solid. On sound solids facets
 /// cross by a fifth of a deflection at most.
 pub const CONTACT_OF_ONE_SOLID: f64 = 0.1;

@@ -154,7 +154,8 @@ fn main() {
         let tables = median(|| drop(EdgeTable::new(&mesh, &PolygonTable::new::<Exact>(&mesh))));
         let seeds = median(|| drop(Seeds::new::<Exact>(&mesh, &polygons, &edges.drawn, &[], &go)));
         let cross = median(|| drop(crossings::<Exact>(&mesh, &edges.drawn, &edges.contours, &go)));
-        let pierce = median(|| drop(piercings::<Exact>(&mesh, &polygons, &edges.drawn, &[], &go)));
+        let pierce =
+            median(|| drop(piercings::<Exact>(&mesh, &polygons, OwnFaces::NONE.slant(&mesh), &edges.drawn, &[], &go)));
         let whole = median(|| drop(solve(&seen, OwnFaces::NONE, Steps::ALL, Numbers::Exact, &go)));
         println!(
             "| {count} | {} | {topo:.1} | {snap:.1} | {tables:.1} | {seeds:.1} | {cross:.1} | {pierce:.1} | {whole:.1} |",

@@ -12,10 +12,10 @@
 
 use smallvec::SmallVec;
 
+use super::Model;
 use super::face::Face;
 use super::grazing::{Grazing, Turns, WALL, divided, plane_normal, seen_edge_on, turns};
 use super::side::{Side, on_triangle};
-use super::Model;
 use hlr_brep::geometry::vector::{Vector, along, dot, sub};
 use hlr_visibility::scan::stretches::Beside;
 

@@ -83,7 +83,7 @@ pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], dents: &D
         let rise = (turning == Some(at)).then(|| {
             [0, 1].map(|k| rise(model, &[side.triangle], &on_edge(model, e, stretch.range[k]), &stretch.normals[k]))
         });
-        out.push(Grazing { rise, dented: self::dented(model, side), ..stretch });
+        out.push(Grazing { rise, dented: dented(side), ..stretch });
     }
 }
 

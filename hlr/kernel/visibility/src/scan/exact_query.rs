@@ -55,7 +55,8 @@ impl<'a> ExactQuery<'a> {
         let ends = self.mesh.ends(edge);
         let mut found = Vec::new();
         self.in_front(self.tree(), Aabb::of(&[ends.0, ends.1]), |t| found.push((t, ends)));
-        self.decide_by::<A>(self.mesh.edge_group[edge], found, out)
+        let group = self.mesh.edge_group[edge];
+        self.decide_by::<A>(found, |t| self.mesh.delta(group, self.mesh.triangle_group[t]), out)
     }
 
     /// Calls `visit` with the polygons of a tree that may lie in front of a box.
@@ -65,11 +66,11 @@ impl<'a> ExactQuery<'a> {
     }
 
     /// The same as `decide`, where the edge may have another position for some polygons. `polygons`: those it is
-    /// compared with, and its ends for each.
+    /// compared with, and its ends for each; `delta`: how far it is moved toward the viewer before that.
     pub fn decide_by<'p, A: Arithmetic>(
         &self,
-        group: i32,
         polygons: impl IntoIterator<Item = (usize, (&'p Point, &'p Point))>,
+        delta: impl Fn(usize) -> i64,
         out: &mut Vec<Segment>,
     ) -> bool {
         let mesh = self.mesh;
@@ -81,7 +82,7 @@ impl<'a> ExactQuery<'a> {
                 continue;
             }
             let Some(cover) = mesh.cover::<A>(t) else { continue };
-            let delta = mesh.delta(group, mesh.triangle_group[t]);
+            let delta = delta(t);
             let (plain, moved) = cover.hides_end(a, b, delta);
             start.plain += i32::from(plain);
             start.moved += i32::from(moved);

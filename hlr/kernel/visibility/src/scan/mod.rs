@@ -15,7 +15,8 @@
 //! 9. `own_faces`      the slow way for edges whose own faces are seen nearly edge-on: hidden only if these turn over
 //!    (`stretches`: these edges; `sheets`: the triangles of faces that go on smoothly; `touching`: outlines at which
 //!    another body touches)
-//! 10. `drawn`         the pieces that lines are made of
+//! 10. `slanted`       the same for edges that touch polygons seen at a slant
+//! 11. `drawn`         the pieces that lines are made of
 //!
 //! Two shortcuts, taken where the scene calls for them, with the same result: `single_layer` (a convex body: culling
 //! alone decides) before 4, and `depth_pyramid` (deep scenes: what surely lies behind something needs no search).
@@ -41,6 +42,7 @@ pub mod query_points;
 pub mod scene;
 mod sheets;
 pub mod single_layer;
+pub mod slanted;
 pub mod stretches;
 pub mod sweep;
 mod touching;

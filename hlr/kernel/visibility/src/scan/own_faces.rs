@@ -27,6 +27,7 @@ use super::merged::merged;
 use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
 use super::sheets::Sheets;
+use super::slanted::Slant;
 use super::stretches::{Beside, Stretches};
 use crate::boxes::aabb::Aabb;
 use hlr_exact::Point;
@@ -146,7 +147,7 @@ impl OwnFaces<'_> {
                 return culled != self.hidden(s, culled);
             }
             let own = self.own_polygons(mesh, exact, sheets, s);
-            let group = mesh.edge_group[edge];
+            let delta = self.delta(mesh, edge);
             let as_drawn = |t: usize| match mesh.incident(edge) {
                 // Outlines are moved off their face already.
                 [] => Some(mesh.ends(edge)),
@@ -155,8 +156,8 @@ impl OwnFaces<'_> {
             let as_they_lie = own.iter().filter_map(|&(t, _)| Some((t, as_drawn(t)?)));
             // Most stretches have no polygon of their own in front of them, wherever they are looked for.
             !own.is_empty()
-                && exact.decide_by::<A>(group, as_they_lie, &mut one)
-                && exact.decide_by::<A>(group, own.iter().copied(), &mut two)
+                && exact.decide_by::<A>(as_they_lie, &delta, &mut one)
+                && exact.decide_by::<A>(own.iter().copied(), &delta, &mut two)
                 && !one.iter().map(|s| s.state).eq(two.iter().map(|s| s.state))
         })
     }
@@ -232,7 +233,7 @@ impl OwnFaces<'_> {
     /// from polygons seen at a large angle to polygons seen edge-on: one of the two ways may have a gap there, the other
     /// has none.
     fn asked<A: Arithmetic>(&self, mesh: &Mesh, exact: &ExactQuery, stretch: usize) -> Option<Vec<Segment>> {
-        let group = mesh.edge_group[self.stretches.edge[stretch] as usize];
+        let delta = self.delta(mesh, self.stretches.edge[stretch] as usize);
         // Of each polygon the ends of the stretch, and whether they differ between the two ways.
         let mut found: Vec<(usize, Ends, bool)> = Vec::new();
         exact.in_front(exact.tree(), self.reach(mesh, stretch), |t| match self.off(mesh, stretch, t) {
@@ -240,7 +241,7 @@ impl OwnFaces<'_> {
             None => found.extend(self.plain(mesh, stretch, t).map(|ends| (t, ends, false))),
         });
         let mut one = Vec::new();
-        if !exact.decide_by::<A>(group, found.iter().map(|&(t, ends, _)| (t, ends)), &mut one) {
+        if !exact.decide_by::<A>(found.iter().map(|&(t, ends, _)| (t, ends)), &delta, &mut one) {
             return None;
         }
         if found.iter().all(|&(.., differs)| !differs) {
@@ -251,7 +252,7 @@ impl OwnFaces<'_> {
             let ends = if differs { self.plain(mesh, stretch, t)? } else { ends };
             Some((t, ends))
         });
-        let decided = exact.decide_by::<A>(group, second, &mut two);
+        let decided = exact.decide_by::<A>(second, &delta, &mut two);
         decided.then(|| merged(&one, &two, State::more_hidden))
     }
 
@@ -293,11 +294,16 @@ impl OwnFaces<'_> {
     }
 
     fn edge_on(&self, mesh: &Mesh, t: usize) -> bool {
-        let (p, q, r) = mesh.corners(t);
-        let place = |p: &Point| [f64::from(p[0]), f64::from(p[1]), f64::from(p[2]) / self.depth_scale];
-        let (p, q, r) = (place(p), place(q), place(r));
-        let (u, v) = ([0, 1, 2].map(|k| q[k] - p[k]), [0, 1, 2].map(|k| r[k] - p[k]));
-        let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-        n[2] * n[2] < EDGE_ON * EDGE_ON * (n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
+        self.slant(mesh).facing(t) < EDGE_ON
+    }
+
+    pub fn slant<'m>(&self, mesh: &'m Mesh<'m>) -> Slant<'m> {
+        Slant { mesh, depth_scale: self.depth_scale }
+    }
+
+    /// How far an edge is moved toward the viewer, per polygon.
+    fn delta<'m>(&self, mesh: &'m Mesh<'m>, edge: usize) -> impl Fn(usize) -> i64 + use<'m> {
+        let (slant, group) = (self.slant(mesh), mesh.edge_group[edge]);
+        move |t| slant.delta(group, t)
     }
 }

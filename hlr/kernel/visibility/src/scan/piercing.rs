@@ -17,6 +17,7 @@ use rayon::prelude::*;
 use super::invisibility::Event;
 use super::mesh::Mesh;
 use super::polygon_table::{PolygonTable, is_left_out};
+use super::slanted::Slant;
 use crate::boxes::aabb::{Aabb, Item};
 use crate::boxes::tree::Tree;
 use hlr_exact::Point;
@@ -33,12 +34,15 @@ pub struct Piercings<P> {
     pub groups: usize,
     /// Whether it was, per group; empty where none was.
     pub sought: Vec<bool>,
+    /// Drawn edges, ascending, that lie behind a polygon of another group, seen at a slant, by more than the count allows,
+    /// and yet touch it.
+    pub slanted: Vec<u32>,
 }
 
 impl<P> Piercings<P> {
     /// Where none are looked for.
     pub fn none() -> Piercings<P> {
-        Piercings { events: Vec::new(), tests: 0, groups: 0, sought: Vec::new() }
+        Piercings { events: Vec::new(), tests: 0, groups: 0, sought: Vec::new(), slanted: Vec::new() }
     }
 }
 
@@ -46,6 +50,7 @@ impl<P> Piercings<P> {
 pub fn piercings<A: Arithmetic>(
     mesh: &Mesh,
     table: &PolygonTable,
+    slant: Slant,
     drawn: &[u32],
     behind: &[bool],
     stopped: &(dyn Fn() -> bool + Sync),
@@ -56,7 +61,7 @@ pub fn piercings<A: Arithmetic>(
     if searched == 0 {
         return Piercings::none();
     }
-    let largest = mesh.groups.iter().map(|p| p.delta).max().unwrap_or(0);
+    let largest = Slant::most(mesh.groups.iter().map(|p| p.delta).max().unwrap_or(0));
     let mut members: Vec<Vec<(Aabb, u32)>> = vec![Vec::new(); mesh.groups.len()];
     for (reach, t) in reached(mesh, table, &boxes, &sought, largest) {
         let group = mesh.triangle_group[t as usize];
@@ -67,14 +72,14 @@ pub fn piercings<A: Arithmetic>(
     let trees: Vec<Tree> = members.par_iter().map(|items| Tree::new(items)).collect();
     let live: Vec<Item> = (0..mesh.groups.len()).filter(|&p| sought[p]).map(|p| (boxes[p], p as u32)).collect();
     let groups = Tree::new(&live);
-    let found: Vec<(Vec<Event<A::Parameter>>, u64)> = drawn
+    let found: Vec<(Vec<Event<A::Parameter>>, u64, Vec<u32>)> = drawn
         .par_chunks(256)
         .enumerate()
         .map(|(chunk, edges)| {
             let mut events = Vec::new();
-            let mut tests = 0;
+            let (mut tests, mut slanted) = (0, Vec::new());
             if stopped() {
-                return (events, tests);
+                return (events, tests, slanted);
             }
             for (i, &e) in edges.iter().enumerate() {
                 let own = mesh.edge_group[e as usize];
@@ -82,15 +87,17 @@ pub fn piercings<A: Arithmetic>(
                     continue;
                 }
                 let (a, b) = mesh.ends(e as usize);
+                let mut touches = false;
                 let reach = Aabb::of(&[a, b]).toward_viewer(largest);
                 groups.query(&reach, |other| {
                     if other as i32 == own && mesh.groups[own as usize].sound {
                         return;
                     }
                     let delta = mesh.delta(own, other as i32);
-                    let reach = Aabb::of(&[a, b]).toward_viewer(delta);
+                    let reach = Aabb::of(&[a, b]).toward_viewer(Slant::most(delta));
                     trees[other as usize].query(&reach, |t| {
                         tests += 1;
+                        touches = touches || slant.touches::<A>(own, [a, b], t as usize);
                         let (p, q, r) = mesh.corners(t as usize);
                         if is_beside::<A>(a, b, [p, q, r]) {
                             return;
@@ -101,12 +108,14 @@ pub fn piercings<A: Arithmetic>(
                         });
                     });
                 });
+                slanted.extend(touches.then_some(e));
             }
-            (events, tests)
+            (events, tests, slanted)
         })
         .collect();
     let tests = found.iter().map(|f| f.1).sum();
-    Piercings { events: found.into_iter().map(|f| f.0).collect(), tests, groups: searched, sought }
+    let slanted = found.iter().flat_map(|f| &f.2).copied().collect();
+    Piercings { events: found.into_iter().map(|f| f.0).collect(), tests, groups: searched, sought, slanted }
 }
 
 /// Reports where a -> b passes through the polygon: in its true place, and moved toward the viewer by `delta`.

@@ -41,6 +41,8 @@ pub struct Counters {
     pub hidden_by_pyramid: u64,
     /// Edges that the triangles of their own faces would hide or show wrongly.
     pub freed_of_own_faces: u64,
+    /// Edges compared once more because they touch polygons seen at a slant.
+    pub slanted: u64,
 }
 
 /// Time per step, in seconds; steps side by side share the time by the clock.
@@ -101,7 +103,7 @@ pub fn visibility_by<A: Arithmetic>(
         projecting: edges.projecting as u64,
         ..Counters::default()
     };
-    let exact = ExactQuery::new(mesh, &table);
+    let (exact, slant) = (ExactQuery::new(mesh, &table), own.slant(mesh));
     seconds.tables = clock.lap();
     if !steps.crossings && is_single_layer(mesh, &edges.contours) {
         let walked = alone::<A>(mesh, &table, &edges.drawn, &exact, stopped);
@@ -131,9 +133,13 @@ pub fn visibility_by<A: Arithmetic>(
     // 4. crossings and piercings: the jumps between
     let crossed = || timed(|| crossings::<A>(mesh, &edges.drawn, &edges.contours, stopped));
     let pierced = || {
-        timed(
-            || if piercing { piercings::<A>(mesh, &table, &edges.drawn, &behind, stopped) } else { Piercings::none() },
-        )
+        timed(|| {
+            if piercing {
+                piercings::<A>(mesh, &table, slant, &edges.drawn, &behind, stopped)
+            } else {
+                Piercings::none()
+            }
+        })
     };
     // for step 7: edges whose own faces are seen edge-on and seem to hide them
     let differing = || {
@@ -171,7 +177,9 @@ pub fn visibility_by<A: Arithmetic>(
     // 6. add the edges that culling and the pyramid decided
     let mut pieces = gathered(walked, &edges.hidden, &mut counters);
     seconds.counting = clock.lap();
-    // 7. correct edges whose own faces are seen edge-on, and outlines at which another body touches
+    // 7. correct edges that touch polygons seen at a slant, edges whose own faces are seen edge-on, and outlines at which
+    // another body touches
+    (pieces, counters.slanted) = slant.applied::<A>(&exact, &pierced.slanted, pieces, stopped);
     let mut differing = differing;
     differing.extend(touching(mesh, own, &exact, &pierced.sought, &pieces, stopped));
     differing.sort_unstable_by_key(|run| run.start);
