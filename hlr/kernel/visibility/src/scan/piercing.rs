@@ -46,6 +46,13 @@ impl<P> Piercings<P> {
     }
 }
 
+/// Of some of the drawn edges.
+struct Found<P> {
+    events: Vec<Event<P>>,
+    tests: u64,
+    slanted: Vec<u32>,
+}
+
 /// behind: per group, whether its polygons are left out; empty: of none.
 pub fn piercings<A: Arithmetic>(
     mesh: &Mesh,
@@ -72,14 +79,13 @@ pub fn piercings<A: Arithmetic>(
     let trees: Vec<Tree> = members.par_iter().map(|items| Tree::new(items)).collect();
     let live: Vec<Item> = (0..mesh.groups.len()).filter(|&p| sought[p]).map(|p| (boxes[p], p as u32)).collect();
     let groups = Tree::new(&live);
-    let found: Vec<(Vec<Event<A::Parameter>>, u64, Vec<u32>)> = drawn
+    let found: Vec<Found<A::Parameter>> = drawn
         .par_chunks(256)
         .enumerate()
         .map(|(chunk, edges)| {
-            let mut events = Vec::new();
-            let (mut tests, mut slanted) = (0, Vec::new());
+            let (mut events, mut tests, mut slanted) = (Vec::new(), 0, Vec::new());
             if stopped() {
-                return (events, tests, slanted);
+                return Found { events, tests, slanted };
             }
             for (i, &e) in edges.iter().enumerate() {
                 let own = mesh.edge_group[e as usize];
@@ -110,12 +116,12 @@ pub fn piercings<A: Arithmetic>(
                 });
                 slanted.extend(touches.then_some(e));
             }
-            (events, tests, slanted)
+            Found { events, tests, slanted }
         })
         .collect();
-    let tests = found.iter().map(|f| f.1).sum();
-    let slanted = found.iter().flat_map(|f| &f.2).copied().collect();
-    Piercings { events: found.into_iter().map(|f| f.0).collect(), tests, groups: searched, sought, slanted }
+    let tests = found.iter().map(|f| f.tests).sum();
+    let slanted = found.iter().flat_map(|f| &f.slanted).copied().collect();
+    Piercings { events: found.into_iter().map(|f| f.events).collect(), tests, groups: searched, sought, slanted }
 }
 
 /// Reports where a -> b passes through the polygon: in its true place, and moved toward the viewer by `delta`.
