@@ -15,7 +15,7 @@
 //! 9. `own_faces`      the slow way for edges whose own faces are seen nearly edge-on: hidden only if these turn over
 //!    (`stretches`: these edges; `sheets`: the triangles of faces that go on smoothly; `touching`: outlines at which
 //!    another body touches)
-//! 10. `slanted`       the same for edges that touch polygons seen at a slant
+//! 10. `slanted`       the same for edges that touch polygons seen at a slant (`slant`: the tolerance there)
 //! 11. `drawn`         the pieces that lines are made of
 //!
 //! Two shortcuts, taken where the scene calls for them, with the same result: `single_layer` (a convex body: culling
@@ -42,7 +42,8 @@ pub mod query_points;
 pub mod scene;
 mod sheets;
 pub mod single_layer;
-pub mod slanted;
+pub mod slant;
+mod slanted;
 pub mod stretches;
 pub mod sweep;
 mod touching;

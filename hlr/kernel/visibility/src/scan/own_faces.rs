@@ -27,7 +27,7 @@ use super::merged::merged;
 use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
 use super::sheets::Sheets;
-use super::slanted::Slant;
+use super::slant::Slant;
 use super::stretches::{Beside, Stretches};
 use crate::boxes::aabb::Aabb;
 use hlr_exact::Point;

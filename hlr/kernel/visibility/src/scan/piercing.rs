@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use super::invisibility::Event;
 use super::mesh::Mesh;
 use super::polygon_table::{PolygonTable, is_left_out};
-use super::slanted::Slant;
+use super::slant::Slant;
 use crate::boxes::aabb::{Aabb, Item};
 use crate::boxes::tree::Tree;
 use hlr_exact::Point;

@@ -15,6 +15,7 @@ use super::own_faces::OwnFaces;
 use super::piercing::{Piercings, piercings};
 use super::polygon_table::PolygonTable;
 use super::single_layer::is_single_layer;
+use super::slanted::compared_again;
 use super::touching::touching;
 use hlr_exact::arithmetic::Arithmetic;
 
@@ -179,7 +180,7 @@ pub fn visibility_by<A: Arithmetic>(
     seconds.counting = clock.lap();
     // 7. correct edges that touch polygons seen at a slant, edges whose own faces are seen edge-on, and outlines at which
     // another body touches
-    (pieces, counters.slanted) = slant.applied::<A>(&exact, &pierced.slanted, pieces, stopped);
+    (pieces, counters.slanted) = compared_again::<A>(&slant, &exact, &pierced.slanted, pieces, stopped);
     let mut differing = differing;
     differing.extend(touching(mesh, own, &exact, &pierced.sought, &pieces, stopped));
     differing.sort_unstable_by_key(|run| run.start);

@@ -1,0 +1,82 @@
+//! The contact tolerance of a polygon seen at a slant.
+//!
+//! Two tessellations that touch are a certain distance apart, at right angles to their surfaces
+//! (`CONTACT_AT_RIGHT_ANGLES`). An edge this far beneath a polygon lies the farther behind it, as seen by the viewer, the
+//! more obliquely that is seen.
+//!
+//! ```text
+//!    viewer  >------------->|<-- d / |N.v| -->o     the edge o is a distance d beneath the polygon's plane,
+//!                       .·' polygon         .·'     and d / |N.v| behind it
+//! ```
+
+use super::mesh::Mesh;
+use hlr_accuracy::CONTACT_AT_RIGHT_ANGLES;
+use hlr_exact::Point;
+use hlr_exact::arithmetic::{Arithmetic, Ring};
+use hlr_exact::predicates::{Cover, is_beside};
+
+/// |N . v|: for polygons seen at less, the tolerance grows no more.
+const LEAST: f64 = 0.05;
+
+/// Polygons as they are seen. depth_scale: depth units of the grid per unit in the image.
+#[derive(Clone, Copy)]
+pub struct Slant<'a> {
+    pub mesh: &'a Mesh<'a>,
+    pub depth_scale: f64,
+}
+
+impl Slant<'_> {
+    /// The cosine of the angle between the line of sight and the normal of a polygon.
+    pub fn facing(&self, t: usize) -> f64 {
+        let (p, q, r) = self.mesh.corners(t);
+        let place = |p: &Point| [f64::from(p[0]), f64::from(p[1]), f64::from(p[2]) / self.depth_scale];
+        let (p, q, r) = (place(p), place(q), place(r));
+        let (u, v) = ([0, 1, 2].map(|k| q[k] - p[k]), [0, 1, 2].map(|k| r[k] - p[k]));
+        let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        n[2].abs() / (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt().max(f64::MIN_POSITIVE)
+    }
+
+    /// How far an edge is moved toward the viewer before it is compared with this polygon alone.
+    pub fn delta(&self, drawn_group: i32, t: usize) -> i64 {
+        let group = self.mesh.triangle_group[t];
+        let delta = self.mesh.delta(drawn_group, group);
+        // A surface does not touch itself beside its own folds.
+        if delta == 0 || group == drawn_group {
+            return delta;
+        }
+        let slanted = (delta as f64 * CONTACT_AT_RIGHT_ANGLES / self.facing(t).max(LEAST)) as i64;
+        slanted.min(self.mesh.groups[group as usize].cap).max(delta)
+    }
+
+    /// The most that `delta` may be.
+    pub fn most_delta(&self, drawn_group: i32, t: usize) -> i64 {
+        let group = self.mesh.triangle_group[t];
+        let delta = self.mesh.delta(drawn_group, group);
+        if group == drawn_group {
+            delta
+        } else {
+            Slant::most(delta).min(self.mesh.groups[group as usize].cap).max(delta)
+        }
+    }
+
+    /// The same, whatever the group.
+    pub fn most(delta: i64) -> i64 {
+        (delta as f64 * (CONTACT_AT_RIGHT_ANGLES / LEAST)) as i64
+    }
+
+    /// Whether the edge a-b, of this group, lies behind the polygon by more than the count allows, and touches it.
+    pub fn touches<A: Arithmetic>(&self, group: i32, [a, b]: [&Point; 2], t: usize) -> bool {
+        let (delta, slanted) = (self.mesh.delta(group, self.mesh.triangle_group[t]), self.delta(group, t));
+        let (p, q, r) = self.mesh.corners(t);
+        if slanted <= delta || is_beside::<A>(a, b, [p, q, r]) {
+            return false;
+        }
+        let Some(cover): Option<Cover<A>> = self.mesh.cover(t) else { return false };
+        let (one, two) = (cover.sides(a), cover.sides(b));
+        if (0..3).any(|k| one[k] < A::Area::ZERO && two[k] < A::Area::ZERO) {
+            return false;
+        }
+        let beneath = [cover.beneath(a, &one), cover.beneath(b, &two)];
+        beneath.iter().any(|g| *g > cover.shift(delta)) && beneath.iter().any(|g| *g <= cover.shift(slanted))
+    }
+}
