@@ -76,7 +76,7 @@ mod tests {
 
     /// What becomes of a wire along y behind a triangle whose depth grows by `slope` along x. behind: at its ends; the
     /// contact tolerance is 1.
-    fn states(slope: f64, behind: [f64; 2], of_one_group: bool) -> (Vec<State>, u64) {
+    fn pieces(slope: f64, behind: [f64; 2], of_one_group: bool) -> (Vec<Segment>, u64) {
         let at = |x: f64, y: f64| [x, y, slope * x];
         // The last two give the grid room.
         let [a, b] = behind;
@@ -102,7 +102,12 @@ mod tests {
             groups: &[group; 2],
         };
         let found = solve(&scene, OwnFaces::NONE, Steps::ALL, Numbers::Exact, &|| false).expect("an answer");
-        (found.pieces.iter().map(|p| p.segment.state).collect(), found.counters.slanted)
+        (found.pieces.iter().map(|p| p.segment).collect(), found.counters.slanted)
+    }
+
+    fn states(slope: f64, behind: [f64; 2], of_one_group: bool) -> (Vec<State>, u64) {
+        let (found, asked) = pieces(slope, behind, of_one_group);
+        (found.iter().map(|segment| segment.state).collect(), asked)
     }
 
     #[test]
@@ -118,8 +123,10 @@ mod tests {
     #[test]
     fn what_passes_through_does_not_touch() {
         let slope = f64::sqrt(99.0);
-        let (found, asked) = states(slope, [-4.0, 14.0], false);
-        assert_eq!(found, [Visible, Diving, Hidden, Visible]);
+        let (found, asked) = pieces(slope, [-4.0, 14.0], false);
+        assert_eq!(found.iter().map(|segment| segment.state).collect::<Vec<_>>(), [Visible, Diving, Hidden, Visible]);
+        // Hidden from where it is one unit behind, not four.
+        assert!((found[2].start - 5.0 / 18.0).abs() < 1e-6, "{found:?}");
         assert_eq!(asked, 1);
     }
 }
