@@ -14,7 +14,7 @@ use super::slant::Slant;
 use crate::boxes::aabb::Aabb;
 use hlr_exact::arithmetic::Arithmetic;
 
-/// Pieces (ascending by edge) in which these edges are compared once more, and how many changed. Of an edge whose
+/// Pieces (ascending by edge) in which these edges are compared once more, and how many of them were. Of an edge whose
 /// counts contradict one another then, the pieces stay.
 pub fn compared_again<A: Arithmetic>(
     slant: &Slant,
