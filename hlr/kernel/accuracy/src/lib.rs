@@ -127,6 +127,9 @@ pub const JUNCTION_TOUCH: f64 = 0.2;
 pub const JUNCTION_ALONG: f64 = 30.0;
 /// Of the accuracy: a change this close to a point of an intersection line is where the line goes through the surface.
 pub const JUNCTION_PIERCED: f64 = 0.02;
+/// Of the accuracy, on paper and in space: a line that takes over a bit of another keeps the corner between them where
+/// it would pass farther from it.
+pub const JUNCTION_CORNER: f64 = 0.25;
 /// Of the accuracy: two curves this close have met.
 pub const JUNCTION_MET: f64 = 1e-4;
 /// Millimetres on paper: how far before the place where it touches an outline a line may end, and yet go on to it. Where

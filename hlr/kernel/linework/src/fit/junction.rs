@@ -54,10 +54,10 @@ fn covered(routes: &[Route], changes: &[Change], accuracy: f64, contact: f64, vi
     near.par_chunk_by(|a, b| a.0 == b.0)
         .flat_map_iter(|group| {
             let Change { at, ends } = &changes[group[0].0];
-            let (i, end) = ends[0];
+            let (i, end_of_own) = ends[0];
             let own = &routes[i];
-            let goes_on = ends.len() == 1 && own.left_out[end];
-            let start = own.parameter(end * (own.flat.len() - 2), end as f64);
+            let goes_on = ends.len() == 1 && own.left_out[end_of_own];
+            let start = own.parameter(end_of_own * (own.flat.len() - 2), end_of_own as f64);
             let mut best = (f64::INFINITY, None);
             for &(_, j, k) in group {
                 let other = &routes[j];
@@ -96,6 +96,8 @@ fn covered(routes: &[Route], changes: &[Change], accuracy: f64, contact: f64, vi
                     let to = if route.curve.is_some() {
                         let last = route.parameter(end * (route.flat.len() - 2), end as f64);
                         Goal::Parameter(last + (t - start))
+                    } else if line != i && (t > start) == (end_of_own == 0) {
+                        Goal::Around(own.at(t)[0], own.in_space(t, view))
                     } else {
                         Goal::Point(own.at(t)[0], own.in_space(t, view))
                     };
@@ -284,7 +286,7 @@ mod tests {
         let found = junctions(&routes, 0.05, 0.1, &view, (&[], 0.0));
         assert_eq!(found.len(), 2);
         for step in found {
-            let Goal::Point(flat, space) = step.to else { panic!() };
+            let (Goal::Point(flat, space) | Goal::Around(flat, space)) = step.to else { panic!() };
             assert!((flat[0] - 1.0).abs() < 1e-12 && space == deep[0]);
         }
         // Too far away, no border of a surface, farther from the viewer, or of the same edge: nothing moves.
@@ -297,5 +299,24 @@ mod tests {
         routes[2].space = &[[0.0; 3]; 2];
         routes[2].chain = 0;
         assert!(junctions(&routes, 0.05, 0.1, &view, (&[], 0.0)).is_empty());
+    }
+
+    #[test]
+    fn what_takes_over_the_last_bit_of_another_line_goes_around_the_corner() {
+        let deep = [[0.0, 0.0, 5.0]; 2];
+        let (hidden, visible) = ([[3.0, 0.0], [1.02, 0.0]], [[1.02, 0.0], [1.02, 4.0]]);
+        let view = View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
+        let moves = |x: f64| {
+            let wall = [[x, -1.0], [x, 1.0]];
+            let routes = [
+                straight(0, false, &hidden, &deep),
+                straight(0, true, &visible, &deep),
+                straight(1, true, &wall, &[[0.0; 3]; 2]),
+            ];
+            let found = junctions(&routes, 0.05, 0.1, &view, (&[], 0.0));
+            found.iter().map(|m| (m.line, matches!(m.to, Goal::Around(..)))).collect::<Vec<_>>()
+        };
+        assert_eq!(moves(1.04), [(0, false), (1, true)]);
+        assert_eq!(moves(1.0), [(0, false), (1, false)]);
     }
 }

@@ -84,6 +84,8 @@ pub enum Goal {
     Parameter(f64),
     /// For polylines: the one point, on paper and in space, to which all ends that meet there move.
     Point(Vec2, Vec3),
+    /// The same where this line takes over the last bit of the other: around the corner where it ended.
+    Around(Vec2, Vec3),
 }
 
 /// A place where lines of one chain end: a visible and a hidden one, or an outline alone.

@@ -12,7 +12,8 @@ use super::smooth_joints::{Grown, smooth_joints, swallowed};
 use super::{Drawn, Form, Placed, located, piece};
 use crate::lines::Polyline;
 use crate::lines::camera::Camera;
-use hlr_accuracy::JUNCTION_PIERCED;
+use crate::lines::simplify::off;
+use hlr_accuracy::{JUNCTION_CORNER, JUNCTION_PIERCED};
 use hlr_brep::geometry::curve::{Curve, Vec3};
 
 /// Curves in space, their parameter ranges, and their possible places: matrices into the model, row by row.
@@ -116,6 +117,7 @@ pub fn on_curves(
     let mut grown: Vec<Grown> = Vec::new();
     // The ends of polylines that move. Ends of curves move with their interval.
     let mut moved: Vec<[Option<(Vec2, Vec3)>; 2]> = vec![[None; 2]; n];
+    let mut between: Vec<[Vec<(Vec2, Vec3)>; 2]> = vec![<[Vec<_>; 2]>::default(); n];
     for (k, Move { line, end, to }) in moves.into_iter().enumerate() {
         match (&mut routes[line].curve, to) {
             (Some((_, ts)), Goal::Parameter(t)) => {
@@ -129,12 +131,16 @@ pub fn on_curves(
                     ts[at] = t;
                 }
             }
-            (None, Goal::Point(flat, space)) => moved[line][end] = Some((flat, space)),
+            (None, Goal::Point(flat, space) | Goal::Around(flat, space)) => {
+                moved[line][end] = Some((flat, space));
+                let around = matches!(to, Goal::Around(..));
+                let corner = || corner(&routes[line], end, (flat, space), accuracy, camera.scale);
+                between[line][end] = if around { corner().into_iter().collect() } else { Vec::new() };
+            }
             _ => {}
         }
     }
     let gone = swallowed(&mut routes, &grown);
-    let mut between: Vec<[Vec<(Vec2, Vec3)>; 2]> = vec![<[Vec<_>; 2]>::default(); n];
     grown.iter().for_each(|g| between[g.line][g.end] = points_between(&routes[g.line], g.range, fit));
     let mut drawn: Vec<Option<Drawn>> = routes
         .par_iter()
@@ -153,6 +159,7 @@ pub fn on_curves(
         .map(|((((route, drawn), moved), gone), grown)| match (drawn, &route.curve) {
             _ if gone => None,
             (Some(drawn), Some((_, ts))) => Some(OnCurve { grown, ..along(drawn, ts) }),
+            (None, None) => Some(OnCurve { grown, ..as_it_was(&route, moved) }),
             _ => Some(as_it_was(&route, moved)),
         })
         .collect()
@@ -179,6 +186,15 @@ fn points_between(route: &Route, [from, to]: [f64; 2], fit: &Fit) -> Vec<(Vec2, 
     (1..=count).map(|k| (placed.on_paper(at(k))[0], placed.curve.point(placed.track.wrapped(at(k))))).collect()
 }
 
+/// The old end of a polyline, where the chord from its new end to the next point would pass it too far away.
+fn corner(route: &Route, end: usize, new: (Vec2, Vec3), accuracy: f64, scale: f64) -> Option<(Vec2, Vec3)> {
+    let last = route.flat.len() - 1;
+    let (old, next) = (end * last, if end == 0 { 1 } else { last - 1 });
+    let flat = off(&route.flat[old], &new.0, &route.flat[next]);
+    let space = off(&route.space[old], &new.1, &route.space[next]);
+    (flat.max(space * scale) > JUNCTION_CORNER * accuracy).then(|| (route.flat[old], route.space[old]))
+}
+
 fn as_it_was(route: &Route, moved: [Option<(Vec2, Vec3)>; 2]) -> OnCurve {
     let last = route.flat.len() - 1;
     let ends = [0, 1].map(|k| moved[k].unwrap_or((route.flat[k * last], route.space[k * last])));
@@ -193,5 +209,37 @@ fn as_it_was(route: &Route, moved: [Option<(Vec2, Vec3)>; 2]) -> OnCurve {
         inner: 0..last + 1,
         grown: Default::default(),
         bounds,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::route::Border;
+    use super::*;
+
+    #[test]
+    fn a_corner_stays_where_its_line_would_pass_it_on_paper_or_in_depth() {
+        let flat = [[0.0, 0.0], [0.0, 8.0]];
+        let kept = |new: Vec2, deep: f64| {
+            let space = [[0.0, 0.0, 0.0], [0.0, 8.0, 0.0]];
+            let (back_flat, back_space) = ([flat[1], flat[0]], [space[1], space[0]]);
+            let route = |flat, space| Route {
+                chain: 0,
+                visible: true,
+                left_out: [false; 2],
+                border: Border::None,
+                flat,
+                space,
+                curve: None,
+                bulge: 0.0,
+            };
+            let there = (new, [new[0], new[1], deep]);
+            let (on, back) = (route(&flat[..], &space[..]), route(&back_flat[..], &back_space[..]));
+            let found = [corner(&on, 0, there, 1.0, 1.0), corner(&back, 1, there, 1.0, 1.0)];
+            assert_eq!(found[0], found[1]);
+            found[0].is_some()
+        };
+        assert!(!kept([0.1, 0.0], 0.0) && !kept([0.0, -2.0], 0.0));
+        assert!(kept([0.5, 0.0], 0.0) && kept([0.1, 0.0], 0.5));
     }
 }
