@@ -84,7 +84,7 @@ pub enum Goal {
     Parameter(f64),
     /// For polylines: the one point, on paper and in space, to which all ends that meet there move.
     Point(Vec2, Vec3),
-    /// The same where this line takes over the last bit of the other: around the corner where it ended.
+    /// The same, where that point lies on the other line: this one goes on there, and its old end is a corner of it.
     Around(Vec2, Vec3),
 }
 
