@@ -15,7 +15,7 @@ WELD = 1e-7
 class Triangulation:
     """Welded triangles.
 
-    points         (n, 3) float64
+    points         (n, 3) float64, in the order in which the faces have them
     triangles      (m, 3) int32
     triangle_part  (m,)   int32, one part per solid
     drawn          sorted keys lo * n + hi of the mesh edges that lie on B-rep edges, seams excepted
@@ -35,17 +35,19 @@ class Triangulation:
             for mesh in face_meshes(solid):
                 self._take(mesh, part)
         points = np.concatenate(self._points)
-        _, first, number = np.unique(
+        _, first, place = np.unique(
             np.round(points / WELD).astype(np.int64), axis=0, return_index=True, return_inverse=True
         )
-        self.points = points[first]
-        triangles = number.ravel()[np.concatenate(self._triangles)]
+        # In the order of the faces, as a mesh of hlr or of a file has them; `unique` would scatter those of one part.
+        number = np.argsort(np.argsort(first))[place.ravel()]
+        self.points = points[np.sort(first)]
+        triangles = number[np.concatenate(self._triangles)]
         whole = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
         self.triangles = np.ascontiguousarray(triangles[whole], dtype=np.int32)
         self.triangle_part = np.concatenate(self._parts)[whole]
         # Shapes without edges to draw, such as tori, have none.
         ends = np.concatenate([np.zeros((0, 2), np.int64), *self._segments])
-        segments = np.sort(number.ravel()[ends], axis=1).astype(np.int64)
+        segments = np.sort(number[ends], axis=1).astype(np.int64)
         self.drawn = np.unique(segments[:, 0] * len(self.points) + segments[:, 1])
 
     def _take(self, mesh: FaceMesh, part: int) -> None:

@@ -59,7 +59,7 @@ pub fn cut(
 ) -> Option<Cut> {
     let view = &geometry.camera.view();
     let met = Meetings::new(geometry, chains, t.accuracy / geometry.camera.scale);
-    let limits = Limits { short: t.flip, stub: t.stub, noise: t.flip };
+    let limits = Limits { short: t.flip, stub: t.stub, noise: t.flip, end_on: f64::INFINITY };
     let lines: Vec<Polyline> = (0..traits.len())
         .into_par_iter()
         .flat_map_iter(|c| {
@@ -68,8 +68,13 @@ pub fn cut(
             if traits[c].noisy {
                 limits.noise = geometry.noise(edges, t.short);
             }
+            let is_intersection = chains.about[c].kind == Kind::INTERSECTION;
+            // Other lines of meshes may be smoothed across what is seen end-on, and lines of B-reps have their curves.
+            if is_intersection && traits[c].without_brep {
+                limits.end_on = t.space;
+            }
             // Intersection lines go through nothing: they lie on both surfaces.
-            let through = |p: &[f64; 3]| chains.about[c].kind != Kind::INTERSECTION && met.at(p);
+            let through = |p: &[f64; 3]| !is_intersection && met.at(p);
             runs::cut(geometry, edges, reversed, c as u32, &limits, &through)
         })
         .collect();

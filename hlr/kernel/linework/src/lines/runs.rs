@@ -11,6 +11,7 @@ use smallvec::{SmallVec, smallvec};
 use super::camera::Camera;
 use super::{Polyline, distance};
 use hlr_accuracy::RUN_NOISE;
+use hlr_brep::geometry::vector::{length, sub};
 use hlr_visibility::scan::invisibility::State;
 
 /// A piece of one mesh edge; parameters run from the edge's first to its second vertex.
@@ -70,6 +71,8 @@ pub struct Limits {
     /// A hidden run shorter than this between visible ones is visible: only the contour's own folds hide it. A short
     /// visible run never becomes hidden so, for a true outline may be broken into many such runs.
     pub noise: f64,
+    /// A line ends, and another begins, where it is seen end-on for longer than this, in model units.
+    pub end_on: f64,
 }
 
 /// A stretch of constant state between two stops, each (position in the chain, parameter along the walk).
@@ -150,21 +153,36 @@ impl Chain<'_> {
         last > 0 && self.ends(0).0 == self.ends(last).1 && self.at(runs[0].from).0 == self.at(runs[runs.len() - 1].to).0
     }
 
-    fn polyline(&self, runs: &[Run], id: u32) -> Polyline {
+    /// Adds the line of these runs. It has no bits that are one point on paper; a long one divides it, for the points before
+    /// and after it are far apart in space:
+    ///
+    /// ```text
+    ///     from the front                  from the side
+    ///       |                                       |
+    ///       o                                o------o
+    ///       |                                |
+    /// ```
+    fn add_lines(&self, runs: &[Run], id: u32, end_on: f64, out: &mut Vec<Polyline>) {
         let most = runs.iter().map(|run| run.to.0 - run.from.0 + 2).sum();
-        let mut line = Polyline {
+        let empty = |most| Polyline {
             chain: id,
             visible: runs[0].state == State::Visible,
             flat: Vec::with_capacity(most),
             space: Vec::with_capacity(most),
             ..Polyline::default()
         };
+        let mut line = empty(most);
         let mut put = |stop: (usize, f64)| {
             let (flat, space) = self.at(stop);
-            if line.flat.last() != Some(&flat) {
-                line.flat.push(flat);
-                line.space.push(space);
+            if line.flat.last() == Some(&flat) {
+                if line.space.last().is_none_or(|last| length(&sub(&space, last)) <= end_on) {
+                    return;
+                }
+                let before = std::mem::replace(&mut line, empty(0));
+                out.extend((before.flat.len() > 1).then_some(before));
             }
+            line.flat.push(flat);
+            line.space.push(space);
         };
         for run in runs {
             put(run.from);
@@ -173,7 +191,7 @@ impl Chain<'_> {
             }
             put(run.to);
         }
-        line
+        out.extend((line.flat.len() > 1).then_some(line));
     }
 }
 
@@ -318,16 +336,15 @@ pub fn cut(
             let tail = runs.remove(last);
             let head = runs.remove(0);
             for run in &runs {
-                out.push(chain.polyline(&[*run], id));
+                chain.add_lines(&[*run], id, limits.end_on, &mut out);
             }
-            out.push(chain.polyline(&[tail, head], id));
+            chain.add_lines(&[tail, head], id, limits.end_on, &mut out);
             continue;
         }
         for run in &runs {
-            out.push(chain.polyline(&[*run], id));
+            chain.add_lines(&[*run], id, limits.end_on, &mut out);
         }
     }
-    out.retain(|line| line.flat.len() > 1);
     out
 }
 

@@ -3,7 +3,7 @@ use super::*;
 /// Along z: x and y are those on paper.
 const CAMERA: Camera =
     Camera { direction: [0.0, 0.0, -1.0], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0], eye: None, scale: 1.0 };
-const LIMITS: Limits = Limits { short: 0.5, stub: 2.0, noise: 0.5 };
+const LIMITS: Limits = Limits { short: 0.5, stub: 2.0, noise: 0.5, end_on: f64::INFINITY };
 
 /// Lines along a straight chain of unit edges with the given states: (visible, x from, x to).
 fn lines(states: &[State]) -> Vec<(bool, f64, f64)> {
@@ -124,4 +124,32 @@ fn a_stub_is_hidden_and_a_contact_is_seen() {
     let limits = Limits { stub: 2.5, ..LIMITS };
     assert_eq!(lines_within(&[V, W, D, H], &limits), [(true, 0.0, 1.0), (false, 1.0, 4.0)]);
     assert_eq!(lines_within(&[V, D, D, D, H], &limits), [(true, 0.0, 4.0), (false, 4.0, 5.0)]);
+}
+
+#[test]
+fn a_line_is_divided_where_it_runs_far_along_the_line_of_sight() {
+    let lines = |depths: &[f64], end_on: f64| -> Vec<Vec<[f64; 3]>> {
+        let mut space: Vec<[f64; 3]> = vec![[0.0, 0.0, depths[0]]];
+        space.extend(depths.iter().map(|&z| [1.0, 0.0, z]));
+        space.push([2.0, 0.0, depths[depths.len() - 1]]);
+        let edges: Vec<[i32; 2]> = (1..space.len() as i32).map(|i| [i - 1, i]).collect();
+        let ids: Vec<i32> = (0..edges.len() as i32).collect();
+        let whole = Piece { start: 0.0, end: 1.0, state: State::Visible };
+        let g = Geometry {
+            camera: &CAMERA,
+            space: &space,
+            meshed: &space,
+            edges: &edges,
+            pieces: &[whole; 2],
+            piece_edge: &[0, ids[ids.len() - 1]],
+        };
+        let found = cut(&g, &ids, &vec![false; ids.len()], 0, &Limits { end_on, ..LIMITS }, &|_| false);
+        assert!(found.iter().all(|line| line.visible && line.flat.len() == line.space.len()));
+        found.into_iter().map(|line| line.space).collect()
+    };
+    assert_eq!(lines(&[0.0, 3.0], 1.0), [[[0.0; 3], [1.0, 0.0, 0.0]], [[1.0, 0.0, 3.0], [2.0, 0.0, 3.0]]]);
+    // Not far, one after another far enough, and not asked for.
+    assert_eq!(lines(&[0.0, 0.9], 1.0).len(), 1);
+    assert_eq!(lines(&[0.0, 0.6, 1.2], 1.0).len(), 2);
+    assert_eq!(lines(&[0.0, 3.0], f64::INFINITY), [[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 3.0]]]);
 }
