@@ -68,8 +68,6 @@ class Asked:
     def _plan(self, given: Mapping[str, Any]) -> Plan:
         from hlr.batch.plan import plan
 
-        if self._output == "":
-            raise OptionError("the name of the folder of outputs is empty: name one, or leave out -o")
         manifest = self._manifest(given)
         output = Path(self._output) if self._output is not None else manifest.root / manifest.output
         return plan(manifest, Path(os.path.abspath(output)), self._strict)

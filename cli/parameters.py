@@ -33,6 +33,18 @@ class Vector(click.ParamType[Vector3]):
         return vector
 
 
+class OutputName(click.ParamType[str]):
+    """The name of a file or folder that is written. An empty one, of a variable that is not set, is refused."""
+
+    name = "FILE"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Any text but an empty one."""
+        if value == "":
+            self.fail("the name of the output is empty", param, ctx)
+        return str(value)
+
+
 class ViewName(click.ParamType[str | Vector3]):
     """A named view, or a direction from the object toward the viewer."""
 

@@ -19,7 +19,7 @@ from .. import signals
 from ..batch_asked import Asked, Earlier
 from ..batch_progress import Lines, progress
 from ..exits import remark
-from ..parameters import Duration, ViewName, Whole
+from ..parameters import Duration, OutputName, ViewName, Whole
 from ..streams import say, show, show_path
 from ..verb import Verb
 from ..view_options import NO_CACHE
@@ -44,6 +44,7 @@ CHANGED = 3
 @click.option(
     "-o",
     "--output",
+    type=OutputName(),
     metavar="FOLDER",
     help="Where to write. Default: what the manifest says, else drawings in the folder of the batch.",
 )

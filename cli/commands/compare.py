@@ -14,7 +14,7 @@ from hlr.tables.readers import is_model, of_ending
 from ..guard import possible, start
 from ..meter import meter
 from ..outputs import Target, check, place
-from ..parameters import Number, Scale, ViewName
+from ..parameters import Number, OutputName, Scale, ViewName
 from ..signals import tidily
 from ..streams import result_only
 from ..verb import Verb
@@ -35,7 +35,7 @@ _MOST_ROWS = 20
 @click.argument("before", metavar="A")
 @click.argument("after", metavar="B", required=False)
 @click.option(
-    "-o", "--output", "outputs", metavar="FILE", multiple=True,
+    "-o", "--output", "outputs", type=OutputName(), metavar="FILE", multiple=True,
     help="Overlay as SVG, PNG or HTML, figures as JSON, by the ending; may be repeated.",
 )  # fmt: skip
 @click.option(

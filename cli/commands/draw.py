@@ -17,7 +17,7 @@ from ..document_pages import draw_document_pages, names_a_page
 from ..drawn_files import Targets, targets_of, to_stdout, write
 from ..guard import start
 from ..meter import meter
-from ..parameters import Duration, Vector3
+from ..parameters import Duration, OutputName, Vector3
 from ..section_options import SECTION, names_of_drawings, with_sections
 from ..streams import Output, result_only
 from ..style_options import STYLE, style_from
@@ -79,6 +79,7 @@ LINES: tuple[Callable[[Command], Command], ...] = (
     "-o",
     "--output",
     "outputs",
+    type=OutputName(),
     metavar="FILE",
     multiple=True,
     help=f"Where to write: {formats('.')}; a folder/; - for standard output. May be repeated. {{stem}}, {{view}} and "

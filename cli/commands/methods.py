@@ -9,7 +9,7 @@ import click
 from ..guard import start
 from ..meter import meter
 from ..outputs import in_folder, place
-from ..parameters import Number, Pixels, ViewName, Whole
+from ..parameters import Number, OutputName, Pixels, ViewName, Whole
 from ..streams import result_only
 from ..telling import tell_written
 from ..verb import Verb
@@ -21,7 +21,13 @@ if TYPE_CHECKING:
 
 @click.command(cls=Verb)
 @click.argument("source", required=False)
-@click.option("-o", "--output", metavar="DIR", help="A folder for methods.csv, methods.md and the plot methods.png.")
+@click.option(
+    "-o",
+    "--output",
+    type=OutputName(),
+    metavar="DIR",
+    help="A folder for methods.csv, methods.md and the plot methods.png.",
+)
 @options(*CHOICE)
 @click.option("--size", type=Pixels(), metavar="WxH", default="1024x1024", help="Pixels. Default: 1024x1024.")
 @click.option(

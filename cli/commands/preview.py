@@ -12,7 +12,7 @@ from hlr.errors import OptionError
 from ..guard import start
 from ..meter import meter
 from ..outputs import STDOUT, Target, check, is_folder, place, plan
-from ..parameters import Pixels, Vector3
+from ..parameters import OutputName, Pixels, Vector3
 from ..streams import result_only, say
 from ..telling import of_views, tell_notes, tell_written
 from ..verb import Verb
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 @click.option(
     "-o",
     "--output",
+    type=OutputName(),
     metavar="FILE",
     help="Where to write: .png; a folder/; - for standard output. {stem}, {view} and {n} stand for the source, the "
     "view and its number. Default: {stem}.png in this folder.",

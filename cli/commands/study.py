@@ -13,7 +13,7 @@ from hlr.tables.sheets import papers
 from ..guard import without_worker
 from ..meter import meter
 from ..outputs import Target, in_folder, place
-from ..parameters import Number, Scale, Size, ViewName, Whole
+from ..parameters import Number, OutputName, Scale, Size, ViewName, Whole
 from ..signals import Stopped, tidily
 from ..telling import tell_written
 from ..verb import Verb
@@ -30,7 +30,14 @@ _MILLIMETRES = Number(0.0, above=True)
 
 @click.command(cls=Verb)
 @click.argument("source")
-@click.option("-o", "--output", metavar="DIR", required=True, help="A folder for study.md, its tables and its plots.")
+@click.option(
+    "-o",
+    "--output",
+    type=OutputName(),
+    metavar="DIR",
+    required=True,
+    help="A folder for study.md, its tables and its plots.",
+)
 @click.option("--view", type=ViewName(), metavar="NAME|X,Y,Z", default="iso", help="Default: iso.")
 @options(*CHOICE)
 @click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model.")

@@ -320,13 +320,10 @@ def test_what_an_arranged_page_cannot_have_is_refused_before_any_work(hlr_batch,
     assert not list(hlr_batch.folder.rglob("*.svg"))
 
 
-@pytest.mark.parametrize(
-    ("option", "words"), [("-o", "folder of outputs is empty"), ("--baseline", "baseline is empty")]
-)
-def test_a_folder_without_a_name_is_refused(hlr_batch, option, words):
+def test_a_baseline_without_a_name_is_refused(hlr_batch):
     tetrahedron(hlr_batch.folder / "part.off", 1)
-    done = hlr_batch("part.off", option, "")
-    assert done.returncode == 2 and done.stderr.startswith(f"hlr: the name of the {words}: name ")
+    done = hlr_batch("part.off", "--baseline", "")
+    assert done.returncode == 2 and done.stderr.startswith("hlr: the name of the baseline is empty: name ")
     assert [path.name for path in hlr_batch.folder.rglob("*")] == ["part.off"]
 
 

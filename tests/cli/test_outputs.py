@@ -85,6 +85,15 @@ def test_contradictions_are_refused(hlr_command, tmp_path, arguments, words):
     assert names(tmp_path) == []
 
 
+@pytest.mark.parametrize("verb", ["draw", "preview", "compare", "study", "methods", "batch"])
+def test_an_empty_name_is_not_this_folder(hlr_command, tmp_path, verb):
+    (tmp_path / "a.step").write_text("")
+    result = hlr_command(verb, "a.step", "-o", "")
+    assert (result.code, result.err.count("\n")) == (2, 1)
+    assert "-o" in result.err and "the name of the output is empty" in result.err
+    assert names(tmp_path) == ["a.step"]
+
+
 def test_flags_may_be_repeated(hlr_command):
     assert hlr_command("draw", "a.step", "-q", "-q", "--hidden", "--no-hidden", "-o", "a.svg").code == 0
     assert not fake.ASKED[-1][2].hidden
