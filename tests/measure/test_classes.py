@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 from measure.models import pierced
 
 import hlr
@@ -181,3 +182,17 @@ def test_intersections_are_measured_where_the_surfaces_cross():
         lines=tuple(moved(x, (3.0 * ACCURACY, 0.0)) if x.kind == "intersection" else x for x in drawing.lines),
     )
     assert measured(model, off, samples=500).intersections.worst > ACCURACY
+
+
+def test_what_the_pen_is_too_wide_for_is_not_lost(tmp_path):
+    # Five ribs, closer together than the pen is wide: of their lines not all are drawn.
+    ribs = trimesh.util.concatenate([trimesh.creation.box((0.12, 20, 9)) for _ in range(5)])
+    ribs.vertices[:, 0] += 0.24 * np.repeat(np.arange(5), 8)
+    model = open_source(ribs)
+    drawing = hlr.draw(model, "front", scale=1, accuracy=ACCURACY)
+    assert drawing.counters["left_out"] > 0
+    assert measured(model, drawing).lost.worst <= ACCURACY
+    # What is lost by fault is found all the same.
+    longest = max(drawing.lines, key=lambda line: np.ptp(line.points, axis=0).max())
+    reached = judged(model, drawing, None, [line for line in drawing.lines if line is not longest])
+    assert reached.lost.worst > 1.0

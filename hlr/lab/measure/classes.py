@@ -10,7 +10,7 @@ from hlr.drawing.reached import Errors, Reached, errors
 from hlr.errors import OptionError
 from hlr.lab.measure.edges import TrueEdges, edge_errors
 from hlr.lab.measure.figures import shortest
-from hlr.lab.measure.finer import Comparison, finer_drawing, on_the_same_paper
+from hlr.lab.measure.finer import Comparison, drawn_again, on_the_same_paper
 from hlr.lab.measure.intersections import intersection_errors
 from hlr.lab.measure.meshes import mesh_errors
 from hlr.lab.measure.outlines import outline_errors
@@ -70,7 +70,7 @@ def _judged(source: Any, drawing: Drawing, samples: int, finer: Drawing | None) 
         outlines = errors(*outline_errors(opened, drawing, forms[0], paper, samples))
     else:
         meshes = errors(*mesh_errors(opened, drawing, forms[0], paper))
-    found = finer_drawing(opened, drawing, MEASURED_FINENESS) if finer is None else finer
+    found = drawn_again(opened, drawing, MEASURED_FINENESS) if finer is None else finer
     deflection = drawing.accuracy.deflection / MEASURED_FINENESS
     if not isinstance(found, str):
         deflection = min(deflection, found.accuracy.deflection)
@@ -81,7 +81,13 @@ def _judged(source: Any, drawing: Drawing, samples: int, finer: Drawing | None) 
     else:
         beside = Comparison(drawing, forms[0], on_the_same_paper(found, drawing))
         changes, grazing, bound = beside.changes(caster)
-        lost = beside.lost(under(drawing.accuracy.used))
+        # What the pen is too wide for is left out on purpose.
+        whole = (
+            drawn_again(opened, drawing, details=True) if drawing.counters.get("left_out") else "nothing is left out"
+        )
+        lost = beside.lost(
+            under(drawing.accuracy.used), None if isinstance(whole, str) else on_the_same_paper(whole, drawing)
+        )
     return Reached(
         accuracy=drawing.accuracy.used,
         edges=edges,

@@ -27,6 +27,7 @@ from hlr.common.types import Floats, Ints
 from hlr.drawing.chords import Index
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line
+from hlr.drawing.pens import usual_pens_of
 from hlr.drawing.reached import Errors, errors
 from hlr.errors import HlrError
 from hlr.lab.measure.rays import Caster, contradicted, longest_run, runs
@@ -54,14 +55,18 @@ class Finer:
     line: Index
 
 
-def finer_drawing(opened: Any, drawing: Drawing, fineness: float) -> Drawing | str:
-    """Draw the same request at a finer accuracy; returns the reason if that is impossible."""
+def drawn_again(opened: Any, drawing: Drawing, fineness: float = 1.0, *, details: bool = False) -> Drawing | str:
+    """Draw the same request at a finer accuracy; returns the reason if that is impossible.
+
+    details: draw all details, whatever the request says.
+    """
     request = drawing.request
     assert request is not None
     from hlr.pipeline.draw import draw_views
 
     accuracy = drawing.accuracy.used / fineness
     options = replace(request.options, accuracy=accuracy, fill=False, style=None, strict=False, report=False)
+    options = replace(options, details=details or options.details)
     if options.fit is None:
         # At the same scale, though outlines that are known better might fit the page at another.
         options = replace(options, scale=drawing.scale, page=None)
@@ -152,13 +157,15 @@ class Comparison:
         found, _ = _kernel.nearest(mine, key, dots, their_key, self._accuracy)
         return found[np.isfinite(found)]
 
-    def lost(self, under: float) -> Errors:
+    def lost(self, under: float, whole: Finer | None) -> Errors:
         """Stretches of the finer drawing's lines that this drawing lacks.
 
         Intersection lines are left out: the contact tolerance decides whether they are drawn, and it depends on the
         accuracy.
 
         under: a hidden line within this distance (mm) of a visible one counts as lying under its ink
+        whole: this drawing with all details, where the pen is too wide for some. These are not lost: they are as small
+            as the pen, or no farther than its width from what is drawn
         """
         accuracy, step = self._accuracy, self._step(self._finer.drawn)
         points, line = self._finer.drawn.middles(step)
@@ -168,16 +175,21 @@ class Comparison:
         visible = np.array([x.visible for x in self._drawing.lines], bool)[of]
         wanted = np.array([x.visible for x in self._finer.drawing.lines], bool)[line]
 
-        def far(those: Mask, most: float) -> Mask:
-            none, chosen = np.zeros(len(points), np.int32), segments[those]
-            zero = np.zeros(len(chosen), np.int32)
-            found, _ = _kernel.nearest(points, none, np.ascontiguousarray(chosen), zero, most)
+        def far(those: Floats, most: float) -> Mask:
+            none, zero = np.zeros(len(points), np.int32), np.zeros(len(those), np.int32)
+            found, _ = _kernel.nearest(points, none, np.ascontiguousarray(those), zero, most)
             return ~np.isfinite(found)
 
-        missing = far(np.ones(len(of), bool), (1.0 + MEASURED_SAME) * accuracy)
+        reach = (1.0 + MEASURED_SAME) * accuracy
+        missing = far(segments, reach)
         if missing.any():
-            missing &= wanted | far(visible, under + accuracy)
+            missing &= wanted | far(segments[visible], under + accuracy)
+        pen = 0.0
+        if whole is not None and missing.any():
+            pen = usual_pens_of(self._drawing).wide
+            missing &= far(whole.segments, reach) | far(segments, pen)
         start, length = runs(points, line, missing, step)
+        start, length = start[length >= pen], length[length >= pen]
         if len(points) == 0:
             return Errors(None, why="the drawing has none")
         where = [self._name(int(line[i]), points[i]) for i in start]
