@@ -50,6 +50,9 @@ pub fn run(data: &[u8]) {
         if case.traits[id].noisy {
             limits.noise = geometry.noise(edges, limits.short);
         }
+        if case.kind() == Kind::INTERSECTION && case.traits[id].without_brep {
+            limits.end_on = case.tolerances.space;
+        }
         lines.extend(cut(&geometry, edges, reversed, id as u32, &limits, &|_| false));
     }
     check_lines(&case, &lines, "cut");
@@ -92,7 +95,8 @@ fn check_ranks(lines: &[Polyline], rank: &[u32]) {
 fn check_driver(case: &Case, geometry: &Geometry, unthinned: &[Polyline], thinned: &[Polyline]) {
     let mut chains = Chains::new();
     for (edges, reversed) in &case.chains {
-        let about = About { kind: Kind::SHARP, part: 0, edge: -1, face: -1, other: -1, noisy: false, straight: false };
+        let kind = case.kind();
+        let about = About { kind, part: 0, edge: -1, face: -1, other: -1, noisy: false, straight: false };
         chains.push(edges, reversed, about);
     }
     let Some(found) = drawn(geometry, &chains, &case.traits, &case.tolerances, &|| false) else {
@@ -189,7 +193,7 @@ fn read(bytes: &mut Bytes) -> Case {
         pieces,
         piece_edge,
         chains,
-        limits: Limits { short: accuracy, stub: 10.0 * accuracy, noise: accuracy },
+        limits: Limits { short: accuracy, stub: 10.0 * accuracy, noise: accuracy, end_on: f64::INFINITY },
         tolerances: Tolerances {
             accuracy,
             short: accuracy,
@@ -205,6 +209,11 @@ fn read(bytes: &mut Bytes) -> Case {
 }
 
 impl Case {
+    /// All are edges, or all are intersection lines: where both were, edges might go through a surface.
+    fn kind(&self) -> Kind {
+        if self.chains.len().is_multiple_of(2) { Kind::INTERSECTION } else { Kind::SHARP }
+    }
+
     fn extent(&self) -> f64 {
         self.flat.iter().flatten().map(|c| c.abs()).fold(0.0, f64::max)
     }
