@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use super::invisibility::{Event, Segment, walk};
 use super::mesh::Mesh;
 use super::piercing::pierce;
-use super::polygon_table::PolygonTable;
+use super::polygon_table::{PolygonTable, is_left_out};
 use super::query_points::Count;
 use crate::boxes::aabb::Aabb;
 use crate::boxes::tree::Tree;
@@ -19,15 +19,22 @@ use hlr_exact::predicates::{crossing, is_beside};
 pub struct ExactQuery<'a> {
     mesh: &'a Mesh<'a>,
     table: &'a PolygonTable,
+    behind: &'a [bool],
     tree: OnceLock<Tree>,
 }
 
 impl<'a> ExactQuery<'a> {
-    pub fn new(mesh: &'a Mesh<'a>, table: &'a PolygonTable) -> Self {
-        ExactQuery { mesh, table, tree: OnceLock::new() }
+    /// behind: per group, whether its polygons are left out; empty: of none.
+    pub fn new(mesh: &'a Mesh<'a>, table: &'a PolygonTable, behind: &'a [bool]) -> Self {
+        ExactQuery { mesh, table, behind, tree: OnceLock::new() }
     }
 
-    /// All polygons.
+    /// Whether an edge is of a group that is left out: it is hidden from end to end, and need not be asked about.
+    pub fn leaves_out(&self, edge: i32) -> bool {
+        is_left_out(self.behind, self.mesh.edge_group[edge as usize])
+    }
+
+    /// All polygons but those that are left out.
     pub fn tree(&self) -> &Tree {
         self.tree.get_or_init(|| Tree::on_one_thread(&self.boxes(0..self.mesh.triangles.len() as u32)))
     }
@@ -40,14 +47,14 @@ impl<'a> ExactQuery<'a> {
         }
     }
 
-    /// The boxes of those of these triangles that are counted.
+    /// The boxes of those of these triangles that are counted, and not left out.
     pub fn boxes(&self, triangles: impl IntoIterator<Item = u32>) -> Vec<(Aabb, u32)> {
-        let counted = triangles.into_iter().filter(|&t| self.table.counted(t as usize));
+        let asked = |t: usize| self.table.counted(t) && !is_left_out(self.behind, self.mesh.triangle_group[t]);
         let boxed = |t: u32| {
             let (p, q, r) = self.mesh.corners(t as usize);
             (Aabb::of(&[p, q, r]), t)
         };
-        counted.map(boxed).collect()
+        triangles.into_iter().filter(|&t| asked(t as usize)).map(boxed).collect()
     }
 
     /// Segments of one drawn edge; false if even these counts contradict each other.

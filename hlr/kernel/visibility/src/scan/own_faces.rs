@@ -68,7 +68,8 @@ impl OwnFaces<'_> {
         exact: &ExactQuery,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Vec<Range<usize>> {
-        let edges = self.stretches.runs();
+        let mut edges = self.stretches.runs();
+        edges.retain(|run| !exact.leaves_out(self.stretches.edge[run.start]));
         if edges.is_empty() {
             return Vec::new();
         }

@@ -104,9 +104,9 @@ pub fn visibility_by<A: Arithmetic>(
         projecting: edges.projecting as u64,
         ..Counters::default()
     };
-    let (exact, slant) = (ExactQuery::new(mesh, &table), own.slant(mesh));
     seconds.tables = clock.lap();
     if !steps.crossings && is_single_layer(mesh, &edges.contours) {
+        let exact = ExactQuery::new(mesh, &table, &[]);
         let walked = alone::<A>(mesh, &table, &edges.drawn, &exact, stopped);
         counters.by_culling_alone = edges.drawn.len() as u64;
         seconds.counting = clock.lap();
@@ -128,6 +128,7 @@ pub fn visibility_by<A: Arithmetic>(
         edges.contours.retain(|c| !behind[mesh.edge_group[c.edge as usize] as usize]);
         seconds.pyramid = clock.lap();
     }
+    let (exact, slant) = (ExactQuery::new(mesh, &table, &behind), own.slant(mesh));
     // Side by side, for each has stretches on one thread:
     // 3. seeds: the count at both ends of every drawn edge
     let seeds = || timed(|| Seeds::new::<A>(mesh, &table, &edges.drawn, &behind, stopped));
