@@ -119,7 +119,11 @@ impl Bodies<'_> {
             // A corner that touches: there is no direction in which its depth could be measured.
             beyond = f64::NEG_INFINITY;
         }
-        Depth { touch, level: level[0].min(level[1]), beyond, reach }
+        let level = level[0].min(level[1]);
+        // The surface goes on beyond a triangle that has no more than a corner on the other side, and beyond its
+        // neighbours too.
+        let reach = if solid && steep { reach.max(level) } else { reach };
+        Depth { touch, level, beyond, reach }
     }
 
     /// Two measures. First: how far each triangle with its neighbours reaches beyond the other's plane on its shallower
