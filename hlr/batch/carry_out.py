@@ -12,11 +12,11 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, cast
 
 from hlr.batch.job import OF_PARTS, Job, Outcome, failed
-from hlr.batch.pulled_in import references
 from hlr.batch.request import options_of
 from hlr.batch.unused_patterns import named
 from hlr.common.process import debugging
 from hlr.errors import HlrError, StrictError, respelled
+from hlr.source.step_references import references
 
 if TYPE_CHECKING:
     from hlr.common.types import Progress

@@ -2,40 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from pathlib import Path
 
 from hlr.batch.job import Job
 from hlr.batch.request import files_of
+from hlr.source.step_references import references
 from hlr.tables.readers import of_ending
-
-_REFERENCE = re.compile(rb"DOCUMENT_FILE\s*\(\s*'([^'\r\n]{1,300})'")
-"""A file that a STEP file refers to."""
-
-_MOST_REFERENCES = 10_000
-"""Of one source."""
-
-
-def references(source: Path) -> list[Path]:
-    """Files that a STEP file refers to, and those that these refer to. Some may not be there."""
-    found = [source.resolve()]
-    for file in found:  # which grows meanwhile
-        if not _is_step(file) or not file.is_file():
-            continue
-        try:
-            named = dict.fromkeys(_REFERENCE.findall(file.read_bytes()))
-            paths = [(file.parent / name.decode("utf-8", "replace")).resolve() for name in named]
-        except (OSError, ValueError):
-            continue
-        # A file from anybody may name any other: only models count.
-        new = [path for path in paths if _is_step(path) and path not in found]
-        found += new[: _MOST_REFERENCES - len(found)]
-    return found[1:]
-
-
-def _is_step(path: Path) -> bool:
-    return path.suffix.lower() in (".step", ".stp")
 
 
 def imported(script: Path) -> list[Path]:

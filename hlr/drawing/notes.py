@@ -10,6 +10,7 @@ from hlr.tables.entry import listed
 
 NoteCode = Literal[
     "part-left-out",
+    "references-missing",
     "triangles-left-out",
     "wires-left-out",
     "free-edges-left-out",
@@ -50,6 +51,7 @@ NoteCode = Literal[
 
 CODES: dict[NoteCode, str] = {
     "part-left-out": "a part holds nothing that could be drawn",
+    "references-missing": "files that a STEP file refers to are not there; parts of the model are in them",
     "triangles-left-out": "triangles of a mesh are degenerate, or their corners are no numbers or do not exist",
     "wires-left-out": "edges without faces were given, which a hidden-line drawing has no use of",
     "free-edges-left-out": "a part of a file has edges without faces beside it: construction lines, axes, sketches",

@@ -13,9 +13,10 @@ from batch.models import tetrahedron
 from hlr.batch import cluster
 from hlr.batch.carry_out import carry_out
 from hlr.batch.job import Job
-from hlr.batch.pulled_in import imported, needed, references
+from hlr.batch.pulled_in import imported, needed
 from hlr.batch.versions import difference, versions
 from hlr.errors import ClusterError
+from hlr.source.step_references import references
 
 pytest.importorskip("distributed")
 

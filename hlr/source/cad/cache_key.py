@@ -7,20 +7,32 @@ from hashlib import blake2b
 from pathlib import Path
 
 from hlr.common.packages import bindings
+from hlr.source.step_references import references
 
 
 def cache_key(path: Path, kind: str, all_of_it: bool) -> str:
     """40 hexadecimal digits: a digest of a file's content and name, the kind, the options, and the reading code.
 
-    all_of_it: what the file hides was read as well. The name counts because nameless parts are named after the file.
+    all_of_it: what the file hides was read as well. The name counts because nameless parts are named after the file. Of
+    a STEP file, those that it refers to count as well.
     """
     digest = blake2b(digest_size=20)
     for text in (*_reader_versions(), kind, path.name, str(all_of_it)):
         digest.update(text.encode("utf-8", "surrogateescape") + b"\0")
+    _add(digest, path)
+    for other in references(path) if kind == "step" else ():
+        digest.update(b"\0" + str(other).encode("utf-8", "surrogateescape") + b"\0")
+        # One that is missing now may come.
+        if other.is_file():
+            _add(digest, other)
+    return digest.hexdigest()
+
+
+def _add(digest: blake2b, path: Path) -> None:
+    """The content of a file, piece by piece."""
     with path.open("rb") as file:
         while piece := file.read(1 << 20):
             digest.update(piece)
-    return digest.hexdigest()
 
 
 @cache
