@@ -12,6 +12,7 @@ import pytest
 
 import hlr
 from hlr.errors import SourceError, StrictError
+from hlr.source.cad.cache_key import cache_key
 from hlr.source.step_references import references
 
 BOX = Path(__file__).parents[1] / "data" / "freecad" / "box.step"
@@ -80,3 +81,15 @@ def test_references_are_found_wherever_a_file_is_read_piece_by_piece(tmp_path, m
     monkeypatch.setattr("hlr.source.step_references._PIECE_BYTES", 7)
     (tmp_path / "all.step").write_text("x" * 50 + "DOCUMENT_FILE('a.stp','');" + "y" * 500 + "DOCUMENT_FILE ( 'b.stp')")
     assert [path.name for path in references(tmp_path / "all.step")] == ["a.stp", "b.stp"]
+
+
+def test_a_folder_may_move_and_what_cannot_be_read_is_no_fault(tmp_path):
+    (tmp_path / "one").mkdir()
+    path = referring(tmp_path / "one", "part.stp", "a.folder.stp")
+    shutil.copy(BOX, tmp_path / "one" / "part.stp")
+    (tmp_path / "one" / "a.folder.stp").mkdir()
+    key = cache_key(path, "step", False)
+    (tmp_path / "one").rename(tmp_path / "two")
+    assert cache_key(tmp_path / "two" / path.name, "step", False) == key
+    (tmp_path / "two" / "part.stp").write_text("")
+    assert cache_key(tmp_path / "two" / path.name, "step", False) != key

@@ -184,12 +184,13 @@ class Comparison:
         missing = far(segments, reach)
         if missing.any():
             missing &= wanted | far(segments[visible], under + accuracy)
-        pen = 0.0
+        pen, absent = 0.0, missing
         if whole is not None and missing.any():
-            pen = usual_pens_of(self._drawing).wide
-            missing &= far(whole.segments, reach) | far(segments, pen)
+            pen, absent = usual_pens_of(self._drawing).wide, far(whole.segments, reach)
+            missing &= absent | far(segments, pen)
         start, length = runs(points, line, missing, step)
-        start, length = start[length >= pen], length[length >= pen]
+        is_lost = absent[start] | (length >= pen)
+        start, length = start[is_lost], length[is_lost]
         if len(points) == 0:
             return Errors(None, why="the drawing has none")
         where = [self._name(int(line[i]), points[i]) for i in start]

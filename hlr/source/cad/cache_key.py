@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from functools import cache
 from hashlib import blake2b
 from pathlib import Path
@@ -21,9 +22,9 @@ def cache_key(path: Path, kind: str, all_of_it: bool) -> str:
         digest.update(text.encode("utf-8", "surrogateescape") + b"\0")
     _add(digest, path)
     for other in references(path) if kind == "step" else ():
-        digest.update(b"\0" + str(other).encode("utf-8", "surrogateescape") + b"\0")
-        # One that is missing now may come.
-        if other.is_file():
+        digest.update(b"\0" + other.name.encode("utf-8", "surrogateescape") + b"\0")
+        # One that is missing now, or cannot be read, may come.
+        with suppress(OSError):
             _add(digest, other)
     return digest.hexdigest()
 

@@ -40,8 +40,8 @@ pub fn touching(
     };
     let asked = |run: &Range<usize>| {
         let edge = own.stretches.edge[run.start];
-        let asked = is_near(mesh.edge_group[edge as usize]) && mesh.incident(edge as usize).is_empty();
-        asked && !exact.leaves_out(edge) && hidden(edge as u32)
+        let is_outline = mesh.incident(edge as usize).is_empty();
+        is_outline && is_near(mesh.edge_group[edge as usize]) && !exact.leaves_out(edge) && hidden(edge as u32)
     };
     let outlines: Vec<Range<usize>> = own.stretches.runs().into_iter().filter(asked).collect();
     if outlines.is_empty() {
