@@ -879,6 +879,9 @@ class BrepModel:
     def spindles(self) -> list[tuple[int, float, float]]:
         """Faces on tori whose tube reaches beyond the axis: number, major and minor radius."""
 
+    def folded(self) -> list[int]:
+        """Faces that lie on another face beside a common edge, on one surface."""
+
     def is_one_sphere(self) -> bool:
         """Whether the model is one part, and that one whole sphere, turned outward; true only where it is certain."""
 

@@ -23,6 +23,7 @@ class MeshingFaults:
     rescued     meshed by OpenCASCADE's mesher, not by the kernel
     crossed     neither mesher could: their outlines or holes cross or touch; meshed where these run around something
     turned      a loop of the face has the wrong orientation; it was meshed as if it had the right one
+    folded      they lie on another face beside a common edge, on one surface
     torn        their surface folds over itself or jumps, and how far off the mesh may be there, in model units
     unfinished  their mesh took as many steps as it may before it was fine enough, and how far off it may be, in model
                 units
@@ -33,19 +34,22 @@ class MeshingFaults:
     rescued: list[int] = field(default_factory=list)
     crossed: list[int] = field(default_factory=list)
     turned: list[int] = field(default_factory=list)
+    folded: list[int] = field(default_factory=list)
     torn: dict[int, float] = field(default_factory=dict)
     unfinished: dict[int, float] = field(default_factory=dict)
     off: dict[int, float] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
-        return bool(self.lost or self.rescued or self.crossed or self.turned or self.torn or self.unfinished)
+        found = (self.lost, self.rescued, self.crossed, self.turned, self.folded, self.torn, self.unfinished)
+        return any(found)
 
     def notes(self, part: str, face_shape: Ints) -> list[Note]:
         """Notes on a part. face_shape (f,): for each of its faces the number of the underlying face."""
-        lost, rescued, crossed, turned, torn, unfinished = (
-            np.flatnonzero(np.isin(face_shape, numbers)).tolist() if numbers else []
-            for numbers in (self.lost, self.rescued, self.crossed, self.turned, list(self.torn), list(self.unfinished))
+        lost, rescued, crossed, turned, folded = (
+            _placed(numbers, face_shape)
+            for numbers in (self.lost, self.rescued, self.crossed, self.turned, self.folded)
         )
+        torn, unfinished = (_placed(list(numbers), face_shape) for numbers in (self.torn, self.unfinished))
         of = f'Part "{part}": {{}} of {len(face_shape)} faces'
         notes = []
         if lost:
@@ -62,6 +66,9 @@ class MeshingFaults:
             have = "has" if len(turned) == 1 else "have"
             what = f"{have} an outline or a hole that runs the wrong way round"
             notes.append(Note("loops-turned", f"{of.format(len(turned))} {what} ({_listed(turned)})."))
+        if folded:
+            what = "lie on one another beside a common edge: a reader took the rest of a surface for one of them"
+            notes.append(Note("faces-folded", f"{of.format(len(folded))} {what} ({_listed(folded)})."))
         if torn:
             one = len(torn) == 1
             has = "has a surface that folds over itself or jumps" if one else "have surfaces that fold or jump"
@@ -86,6 +93,11 @@ class MeshingFaults:
             found = f"{len(self.off)} faces lie {far} their own edges (the farthest is {where})"
         text = f"In the model itself {found}: lines there cannot be more exact than that."
         return Note("faces-off-edges", text)
+
+
+def _placed(numbers: list[int], face_shape: Ints) -> list[int]:
+    """The faces of a part with these underlying faces."""
+    return np.flatnonzero(np.isin(face_shape, numbers)).tolist() if numbers else []
 
 
 def _farthest(off: dict[int, float], numbers: Ints) -> str:

@@ -45,6 +45,7 @@ class Tessellator:
         report = None if progress is None else lambda done: progress("tessellate", done)
         meshed = self._model.mesh(EACH_SURFACE * deflection, angle, report)
         faults = self._rescue_failed(meshed, deflection, angle)
+        faults.folded = self._model.folded()
         # Two faces that meet at an edge may be twice as far apart: that is the accuracy.
         faults.off = dict(meshed.off_their_edges(deflection))
         if progress is not None:

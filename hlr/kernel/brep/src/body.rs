@@ -166,7 +166,8 @@ pub fn model_of(bodies: Vec<Body>, classified: bool) -> Model {
     mark_copies(&mut faces, &mut edges);
     let mut locations = Locations::none();
     let topology = parts.iter().map(|part| part_topology(part, &faces, &edges, &mut locations)).collect();
-    let mut model = Model { locations, edges, faces, parts, topology, classes: Vec::new(), curves2 };
+    let mut model =
+        Model { locations, edges, faces, parts, topology, classes: Vec::new(), folded: Vec::new(), curves2 };
     if classified {
         model.classify();
     }

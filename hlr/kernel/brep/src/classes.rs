@@ -103,7 +103,7 @@ fn side_along<'a>(
     Some(found)
 }
 
-fn side<'a>(shapes: Shapes<'a>, part: &'a PartTopology, face: u32, number: u32) -> Option<Side<'a>> {
+pub fn side<'a>(shapes: Shapes<'a>, part: &'a PartTopology, face: u32, number: u32) -> Option<Side<'a>> {
     one_side(shapes, &part.faces[face as usize], uses(shapes, part, face, number).next()?)
 }
 
@@ -116,13 +116,15 @@ fn one_side<'a>(shapes: Shapes<'a>, placed: &'a PartFace, used: &Use) -> Option<
 
 /// Whether a tangent edge only divides one surface into two faces.
 fn divides(shapes: Shapes, part: &PartTopology, faces: [(u32, u32); 2], number: u32) -> bool {
-    let beside = |(face, edge): (u32, u32)| {
-        let placed = &part.faces[face as usize];
-        uses(shapes, part, face, edge).next().map(|used| Beside { placed, used })
-    };
     let of_faces = faces.map(|(face, _)| shapes.faces[part.faces[face as usize].face as usize].tolerance);
     let tolerance = shapes.edges[part.edges[number as usize].edge as usize].tolerance + of_faces[0] + of_faces[1];
-    matches!(faces.map(beside), [Some(one), Some(other)] if one_surface(shapes, one, other, tolerance))
+    matches!(faces.map(|face| beside(shapes, part, face)), [Some(one), Some(other)] if one_surface(shapes, one, other, tolerance))
+}
+
+/// A face of a part, and its first use of the edge with this number.
+pub fn beside<'a>(shapes: Shapes<'a>, part: &'a PartTopology, (face, edge): (u32, u32)) -> Option<Beside<'a>> {
+    let placed = &part.faces[face as usize];
+    uses(shapes, part, face, edge).next().map(|used| Beside { placed, used })
 }
 
 /// The highest kind of an elementary surface: plane, cylinder, cone, sphere, torus.

@@ -17,6 +17,7 @@ mod each_face;
 pub mod edges;
 pub mod explore;
 pub mod faces;
+pub mod folded;
 pub mod foreign_mesh;
 pub mod format;
 pub mod geometry;

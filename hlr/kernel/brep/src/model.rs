@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use crate::classes::{Classes, classes};
 use crate::copies::mark_copies;
 use crate::explore::{self, Part};
+use crate::folded::folded;
 use crate::format::{Damaged, Dump, Kind, Locations, On, Orientation, Shape, Sub, SurfaceRecord};
 use crate::geometry::curve::Curve;
 use crate::geometry::moved_surface::moved;
@@ -23,6 +24,8 @@ pub struct Model {
     pub topology: Vec<PartTopology>,
     /// Classes by part and edge.
     pub classes: Vec<Vec<Classes>>,
+    /// Faces that lie on another face beside a common edge, in ascending order.
+    pub folded: Vec<u32>,
     /// Curves in (u, v), as curves in space with z = 0.
     pub curves2: Vec<Option<Curve>>,
 }
@@ -68,7 +71,8 @@ impl Model {
             |part, locations| part_topology(part, &faces, &edges, locations),
         );
         let (parts, curves2) = (found.parts, std::mem::take(&mut dump.curves2));
-        let mut model = Model { locations, edges, faces, parts, topology, classes: Vec::new(), curves2 };
+        let mut model =
+            Model { locations, edges, faces, parts, topology, classes: Vec::new(), folded: Vec::new(), curves2 };
         model.classify();
         Ok(model)
     }
@@ -80,6 +84,10 @@ impl Model {
             (0..part.edges.len()).into_par_iter().map(|edge| classes(shapes, part, edge)).collect()
         };
         self.classes = self.topology.par_iter().map(of_part).collect();
+        let parts = self.topology.par_iter().zip(&self.classes);
+        self.folded = parts.flat_map_iter(|(part, classes)| folded(shapes, part, classes)).collect();
+        self.folded.sort_unstable();
+        self.folded.dedup();
         for (part, classes) in self.topology.iter().zip(&self.classes) {
             for (placed, classes) in part.edges.iter().zip(classes) {
                 self.edges[placed.edge as usize].joints.extend(classes.more.iter().map(|(joint, _)| joint));

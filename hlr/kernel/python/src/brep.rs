@@ -155,6 +155,11 @@ impl BrepModel {
         (0..).zip(&self.0.faces).filter_map(radii).collect()
     }
 
+    /// Numbers of the faces that lie on another face beside a common edge.
+    fn folded(&self) -> Vec<u32> {
+        self.0.folded.clone()
+    }
+
     /// Curves of edges as packed records: kind, range, offsets, values. Edges are given as parts and numbers in their
     /// edge maps; curves are in the frames of their parts.
     fn edge_curves<'py>(

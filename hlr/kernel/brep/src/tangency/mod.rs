@@ -25,8 +25,8 @@ use std::f64::consts::PI;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, length, sub};
 use clear_cases::{clear_case, is_even};
-use side::{Fixed, TANGENT, angle, ascending, crossed, divided, spans};
-pub use side::{NEARLY_TANGENT, Side};
+pub use side::{Fixed, NEARLY_TANGENT, Side, TANGENT, angle};
+use side::{ascending, crossed, divided, spans};
 
 /// Radians. The angle between surfaces that were fitted to one another wavers about TANGENT along an edge. They count
 /// as tangent if no angle exceeds WAVERING and the root mean square does not exceed MOSTLY_TANGENT.
