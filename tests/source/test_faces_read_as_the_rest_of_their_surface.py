@@ -1,5 +1,5 @@
-"""A loop around a sphere bounds a face on either side of it. A reader that takes the wrong side makes a face that lies on
-its neighbour, and hides what lies inside: that is named, and a neighbour that is merely turned around is not.
+"""A loop around a sphere bounds a face on either side of it. A reader that takes the wrong side makes a face that lies
+on its neighbour, and hides what lies inside: that is named, and a neighbour that is merely turned around is not.
 """
 
 from __future__ import annotations
