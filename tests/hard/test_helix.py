@@ -54,9 +54,6 @@ def test_from_above_it_is_two_circles_and_the_upper_end(picture):
     picture(drawing, "top", twice=30.0)
 
 
-@pytest.mark.xfail(
-    strict=True, reason="an outline that lies over itself a turn below is drawn over itself for a quarter turn"
-)
 def test_from_above_each_circle_is_there_once():
     drawing = hlr.draw(helix(), "top", hidden=False, scale=1.0, smooth=False)
     total = sum(map(length, of_kind(drawing, "outline")))

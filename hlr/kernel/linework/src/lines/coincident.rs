@@ -16,7 +16,7 @@ use super::drawn::Drawn;
 pub use super::gaps::Widths;
 use super::gaps::{Covered, Side, along, at, gaps, rest, still_there};
 use super::pairs::{Pair, pairs};
-use super::stretches::Stretches;
+use super::stretches::{Stretches, same_way};
 use super::{Polyline, View, distance};
 
 /// Removes the stretches that better lines cover. `rank[i]` orders lines[i]; ranks are distinct.
@@ -86,8 +86,15 @@ impl Cutting<'_> {
         let mut covered = Vec::new();
         for i in self.order() {
             covered.clear();
-            for pair in pairs[runs[i].clone()].iter().filter(|pair| !removed[pair.by as usize]) {
-                self.cover(pair, &gone, &mut covered);
+            let mut around = vec![];
+            for of_side in pairs[runs[i].clone()].chunk_by(|a, b| a.side == b.side) {
+                let first = covered.len();
+                for pair in of_side.iter().filter(|pair| !removed[pair.by as usize] && !self.is_idle(pair, &around)) {
+                    self.cover(pair, &gone, &mut covered);
+                }
+                if self.lies_on_another_turn(of_side[0].side, &covered[first..]) {
+                    around.push(of_side[0].side);
+                }
             }
             if !covered.is_empty() {
                 self.cut_out(i, &mut covered, &mut gone, |side| removed[side] = true);
@@ -102,21 +109,46 @@ impl Cutting<'_> {
         let mut covered = Vec::new();
         for i in self.order() {
             covered.clear();
+            let mut around = vec![];
             for side in (self.first_side[i] as u32)..self.first_side[i + 1] as u32 {
+                let first = covered.len();
                 drawn.each_near(side, |by| {
                     let own = self.stretches.order(self.sides, side, by) == Some((side, by));
                     let [worse, better] = [side, by].map(|s| &self.sides[s as usize]);
                     if own && let Some((from, to)) = self.stretches.covered(worse, better) {
-                        self.cover(&Pair { side, by, from, to }, &gone, &mut covered);
+                        let pair = Pair { side, by, from, to };
+                        if !self.is_idle(&pair, &around) {
+                            self.cover(&pair, &gone, &mut covered);
+                        }
                     }
                 });
                 drawn.add(side);
+                if self.lies_on_another_turn(side, &covered[first..]) {
+                    around.push(side);
+                }
             }
             if !covered.is_empty() {
                 self.cut_out(i, &mut covered, &mut gone, |side| drawn.remove(side as u32));
             }
         }
         gone
+    }
+
+    /// Whether earlier turns of its own line cover all of a side. covered: its stretches that are covered.
+    fn lies_on_another_turn(&self, side: u32, covered: &[Covered]) -> bool {
+        let one = &self.sides[side as usize];
+        let turn = |c: &&Covered| c.own && c.by.iter().all(|&by| same_way(one, &self.sides[by as usize]));
+        let mut turns: Vec<&Covered> = covered.iter().filter(turn).collect();
+        turns.sort_unstable_by(|a, b| a.from.total_cmp(&b.from));
+        let reached = turns.iter().fold(one.start, |here, c| if c.from <= here { here.max(c.to) } else { here });
+        !turns.is_empty() && reached >= one.start + one.length()
+    }
+
+    /// Whether the better of two turns of one line lies on another turn itself, one of `around` (ascending): it then
+    /// covers no later one, for turns close together must not all vanish but the first.
+    fn is_idle(&self, pair: &Pair, around: &[u32]) -> bool {
+        let [side, better] = [pair.side, pair.by].map(|s| &self.sides[s as usize]);
+        around.binary_search(&pair.by).is_ok() && same_way(side, better)
     }
 
     fn line_of(&self, side: u32) -> usize {
@@ -158,6 +190,29 @@ mod tests {
         let rest = uncovered(vec![rim], &[0], Widths { same: 0.01, under: 0.01 }, &PARALLEL_VIEW);
         assert_eq!(rest.len(), 1);
         assert_eq!(rest[0].flat, [[0.0, 0.0], [5.0, 0.0], [10.0, 0.0]]);
+    }
+
+    #[test]
+    fn a_line_that_runs_around_over_itself_is_drawn_once() {
+        let square = |a: f64| [[-a, -a], [10.0 + a, -a], [10.0 + a, 10.0 + a], [-a, 10.0 + a]];
+        let widths = Widths { same: 0.01, under: 0.01 };
+        let lines = |turns: u32, climb: f64| {
+            let mut points: Vec<[f64; 2]> = (0..turns).flat_map(|k| square(climb * f64::from(k))).collect();
+            points.push(points[0]);
+            uncovered(vec![line(true, &points)], &[0], widths, &PARALLEL_VIEW)
+        };
+        let once = lines(1, 0.0);
+        assert_eq!((once.len(), once[0].flat.len()), (1, 5), "closed, and not cut at its ends");
+        // So many turns are too many for pairs.
+        for turns in [2, 5, 300] {
+            let rest = lines(turns, 0.0);
+            assert_eq!(rest.len(), 1, "{turns}");
+            assert!((rest[0].length() - 40.0).abs() < 0.1, "{turns}");
+        }
+        // Of turns beside one another, both stay; of those closer together than they can be told apart, each second one.
+        let length = |turns, climb| lines(turns, climb).iter().map(Polyline::length).sum::<f64>();
+        assert!(length(2, 0.05) > 70.0);
+        assert!((length(40, 0.006) - 20.0 * 40.0).abs() < 20.0, "{}", length(40, 0.006));
     }
 
     #[test]

@@ -44,7 +44,8 @@ impl Member {
     }
 
     /// Whether one may cover a stretch of the other: the boxes come as near as the gap, directions differ little, and
-    /// each comes as near to the straight line through the other. Within one line only what runs back is covered.
+    /// each comes as near to the straight line through the other. Within one line only what runs back is covered, or
+    /// around: that takes two sides between them.
     pub fn may_cover(&self, other: &Member, gaps: &Gaps) -> bool {
         let gap = gaps.0[usize::from(self.visible != other.visible)];
         // All four at once: most are far apart, and it cannot be foretold on which side.
@@ -54,7 +55,7 @@ impl Member {
         let ([ux, uy], [vx, vy]) = (self.direction, other.direction);
         let sine = (ux * vy - uy * vx).abs();
         near && sine <= PARALLEL as f32 + ROUNDED
-            && (self.line != other.line || ux * vx + uy * vy < ROUNDED)
+            && (self.line != other.line || self.side.abs_diff(other.side) > 2 || ux * vx + uy * vy < ROUNDED)
             && self.near_line(other, sine, gap)
             && other.near_line(self, sine, gap)
     }

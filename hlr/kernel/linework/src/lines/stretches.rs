@@ -6,6 +6,10 @@ use super::gaps::{Side, Widths};
 /// was divided in two ways differ in direction. Crossings at smaller angles are recognised by the length they cover.
 pub(super) const PARALLEL: f64 = 0.5;
 
+/// Widths of coincidence along a line, beyond which a side in the same direction as an earlier one does not merely follow
+/// it: the line has run around.
+const AROUND: f64 = 16.0;
+
 /// A little more than one, for what is rounded.
 const SURELY: f64 = 1.0 + 1e-6;
 
@@ -23,8 +27,12 @@ impl Stretches<'_> {
     pub fn order(&self, sides: &[Side], a: u32, b: u32) -> Option<(u32, u32)> {
         let (s, t) = (&sides[a as usize], &sides[b as usize]);
         if s.line == t.line {
-            // A line that runs back over itself (a rim seen edge-on) is drawn once: its earlier sides stay.
-            return (heading(s, t) < 0.0).then_some((a.max(b), a.min(b)));
+            // A line that runs back over itself (a rim seen edge-on) is drawn once, and so is one that runs around over
+            // itself (a thread seen along its axis): its earlier sides stay.
+            let (earlier, later) = if s.start <= t.start { (s, t) } else { (t, s) };
+            let way = later.start - earlier.start - earlier.length();
+            let again = !same_way(s, t) || way >= AROUND * self.widths.same;
+            return again.then_some((a.max(b), a.min(b)));
         }
         Some(if self.rank[s.line as usize] < self.rank[t.line as usize] { (b, a) } else { (a, b) })
     }
@@ -36,9 +44,9 @@ impl Stretches<'_> {
     }
 }
 
-/// Positive if two sides run in the same direction.
-fn heading(s: &Side, t: &Side) -> f64 {
-    (s.to[0] - s.from[0]) * (t.to[0] - t.from[0]) + (s.to[1] - s.from[1]) * (t.to[1] - t.from[1])
+/// Whether two sides run the same way, not back.
+pub(super) fn same_way(s: &Side, t: &Side) -> bool {
+    (s.to[0] - s.from[0]) * (t.to[0] - t.from[0]) + (s.to[1] - s.from[1]) * (t.to[1] - t.from[1]) >= 0.0
 }
 
 /// The stretch of `worse` within `width` beside `better` and `over` beyond its ends (mm), as parameters on `worse`.
