@@ -5,14 +5,18 @@ Drawn once a turn, the dashes of a hidden one fill each other's gaps: it looks l
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import cadquery as cq
 import numpy as np
 import pytest
 
 import hlr
 from support.at_size import AT_SIZE
+from support.expected import doubled
 from support.measures import length
 
+SCREW = Path(__file__).parents[1] / "data" / "M6-1x12-countersunk-screw.step"
 PITCH, RADIUS, HALF = 2.5, 6.0, 0.5
 
 
@@ -51,6 +55,11 @@ def test_a_spring_is_two_circles_none_of_them_hidden(turns, picture):
         assert all(line.visible for line in circle)
         assert sum(map(length, circle)) == pytest.approx(2 * np.pi * radius, rel=0.01)
     picture(drawing)
+
+
+@pytest.mark.parametrize("view", ["top", "bottom"])
+def test_no_line_of_a_real_screw_lies_on_another(view):
+    assert doubled(hlr.draw(SCREW, view, hidden=True)) == 0.0
 
 
 def from_axis(line):
