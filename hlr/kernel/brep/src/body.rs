@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use crate::bounds::EMPTY;
 use crate::copies::mark_copies;
 use crate::explore::{Part, PlacedEdge, PlacedFace, PlacedUse};
-use crate::format::{Locations, Orientation, SurfaceRecord, moved};
+use crate::format::{Locations, SurfaceRecord, moved};
 use crate::geometry::curve::Curve;
 use crate::geometry::moved_surface;
 use crate::geometry::surface::Surface;
@@ -107,7 +107,7 @@ impl Body {
         let mut sums = vec![0i32; self.edges.len()];
         for face in &self.faces {
             for used in face.face.wires.iter().flatten() {
-                sums[used.edge as usize] += sense(used.orientation, face.reversed);
+                sums[used.edge as usize] += used.orientation.sense(face.reversed);
             }
         }
         !self.faces.is_empty() && sums.iter().zip(&self.edges).all(|(sum, edge)| *sum == 0 || edge.degenerate)
@@ -128,16 +128,6 @@ impl Body {
         }
         length(&sub(&high, &low))
     }
-}
-
-/// 1 where a face with this orientation uses an edge in its sense, -1 where against it, 0 where it does not bound it.
-pub fn sense(orientation: Orientation, reversed: bool) -> i32 {
-    let along = match orientation {
-        Orientation::Forward => 1,
-        Orientation::Reversed => -1,
-        _ => 0,
-    };
-    if reversed { -along } else { along }
 }
 
 /// A model of bodies, one part each. Without classes of edges it can be meshed, but not drawn.

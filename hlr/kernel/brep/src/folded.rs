@@ -13,7 +13,6 @@
 
 use rayon::prelude::*;
 
-use crate::body::sense;
 use crate::classes::{Classes, EdgeClass, beside, side};
 use crate::continued::one_surface;
 use crate::geometry::surface::Surface;
@@ -42,7 +41,7 @@ fn is_folded(shapes: Shapes, part: &PartTopology, number: u32) -> bool {
     let opposed = angle(&[Fixed::new(here), Fixed::new(there)], 0.5).is_some_and(|angle| angle >= PI - TANGENT);
     // Where both have the edge in the same sense, one of them is merely turned around.
     let [Some(one), Some(two)] = [one, two].map(|face| beside(shapes, part, (face, number))) else { return false };
-    let senses = [one, two].map(|face| sense(face.used.orientation, face.placed.reversed));
+    let senses = [one, two].map(|face| face.used.orientation.sense(face.placed.reversed));
     let tolerance = shapes.edges[part.edges[number as usize].edge as usize].tolerance;
     opposed && senses[0] * senses[1] < 0 && one_surface(shapes, one, two, tolerance)
 }

@@ -10,7 +10,7 @@ use super::regions::Regions;
 use super::section_curve::section_curve;
 use super::separate::separate;
 use super::trace::Section;
-use crate::body::{Body, BodyFace, sense};
+use crate::body::{Body, BodyFace};
 use crate::format::Orientation;
 use crate::shapes::{Edge, Face, Use};
 
@@ -84,7 +84,7 @@ fn borders(
         let own = face.wires.iter().flatten().find(|used| used.edge == edge).ok_or("an edge is missing")?;
         let follow = pieces.uses(&Use { orientation, ..*own }, made);
         let [follow] = &follow[..] else { return Err("an edge lies partly in the plane") };
-        let back = |used: &Use| sense(used.orientation, true) == sense(orientation, false);
+        let back = |used: &Use| used.orientation.sense(true) == orientation.sense(false);
         let at = flat.iter().position(|used: &Use| used.edge == follow.edge && back(used));
         flat.remove(at.ok_or("an edge lies partly in the plane")?);
     }

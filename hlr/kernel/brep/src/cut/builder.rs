@@ -1,6 +1,6 @@
 //! A body while it is put together.
 
-use crate::body::{Body, BodyFace, sense};
+use crate::body::{Body, BodyFace};
 use crate::shapes::Edge;
 
 /// What is made so far. `on_plane` and `sums`: by edge, whether it lies on the plane, and how often faces use it in its
@@ -21,7 +21,7 @@ impl BodyBuilder {
 
     pub fn add_face(&mut self, face: BodyFace) {
         for used in face.face.wires.iter().flatten() {
-            self.sums[used.edge as usize] += sense(used.orientation, face.reversed);
+            self.sums[used.edge as usize] += used.orientation.sense(face.reversed);
         }
         self.body.faces.push(face);
     }
