@@ -86,6 +86,7 @@ impl Cutting<'_> {
         let mut covered = Vec::new();
         for i in self.order() {
             covered.clear();
+            // The sides of this line that lie on an earlier turn of it.
             let mut around = vec![];
             for of_side in pairs[runs[i].clone()].chunk_by(|a, b| a.side == b.side) {
                 let first = covered.len();
