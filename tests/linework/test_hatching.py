@@ -86,6 +86,31 @@ def test_a_part_in_the_hole_of_another_touches_it_only_where_the_border_is_near(
     assert patterns_of({"ring": ring, "core": apart}, A4)["core"].angle == 45.0
 
 
+@pytest.mark.parametrize(
+    "other",
+    [
+        rectangle(20, 30, 20, 40),
+        rectangle(10, 5, 40, 30),
+        rectangle(40, 20, 60, 60),
+        rectangle(-20, 10, 140, 5),
+        rectangle(-20, -20, 140, 100),
+    ],
+    ids=["through one side", "inside", "over a corner", "across", "around"],
+)
+def test_parts_that_pass_through_one_another_differ(other):
+    """As a stud in the hole of its core diameter does: no corner of the one lies at a side of the other."""
+    found = patterns_of({"a": [rectangle(0, 0, 60, 40)], "b": [other]}, A4)
+    assert not found["a"].like(found["b"])
+
+
+def test_a_part_in_a_hole_of_another_does_not_pass_through_it():
+    plate = [rectangle(0, 0, 60, 40), rectangle(10, 10, 40, 20, hole=True)]
+    inside, beside = [rectangle(20, 15, 10, 10)], [rectangle(70, 0, 60, 40)]
+    found = patterns_of({"plate": plate, "inside": inside, "beside": beside}, A4)
+    assert found["plate"] == found["beside"]
+    assert found["plate"].angle == found["inside"].angle
+
+
 def test_ten_parts_in_a_fan_that_all_touch_get_patterns_without_end():
     parts = {f"{k}": [np.array([[0, 0], [50.0, 10.0 * k], [50.0, 10.0 * k + 10]])] for k in range(10)}
     found = list(patterns_of(parts, A4).values())
