@@ -135,7 +135,7 @@ def _meeting(boxes: Floats, number: int) -> list[int]:
 
 @dataclass(frozen=True, slots=True)
 class _Border:
-    """Where the cut faces of a part end. box: two corners (2,); sides (n, 2, 2); starts (k, 2): a corner of each loop."""
+    """Where cut faces of a part end. box: two corners (2,); sides (n, 2, 2); starts (k, 2): of each loop a corner."""
 
     box: tuple[Floats, Floats]
     sides: Floats

@@ -145,7 +145,7 @@ class _Views:
         Room all around is enough; less is, where the marks lie clear of other views and of the margins even so.
         Behind it how far these go out, as of `hlr.pipeline.section.on_page.end_levels`, and what is said about it.
         """
-        if not any(each.is_further for each in self.shown):
+        if len(self.letters) < 2:
             return found, 0, []
         from hlr.drawing.section_marks import FARTHER
         from hlr.pipeline.section.on_page import FARTHEST_ENDS, are_clear, cutting_lines, end_levels

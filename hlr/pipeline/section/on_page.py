@@ -132,26 +132,31 @@ def end_levels(lines: Mapping[str, CuttingLine], farthest: int = FARTHEST_ENDS) 
     """How far out both ends of cutting lines go, in steps of `FARTHER`, none farther than that many.
 
     Arrows of planes that look the same way and are close together would lie over one another: of two, the end of that
-    which is farther from the viewer goes farther out, for its arrow then lies beyond the other.
+    which is farther from the viewer goes farther out, for its arrow then lies beyond the other. So would those of planes
+    that look at each other: of two, the later one goes farther out.
     """
     levels: list[dict[str, int]] = []
     for end in (0, -1):
         places = {name: -float(np.dot(line.points[end], line.back)) for name, line in lines.items()}
         found: dict[str, int] = {}
         for name in sorted(lines, key=lambda name: places[name]):
-            beside = [
-                level
-                for other, level in found.items()
-                if places[name] - places[other] < TAIL - SAME_PLACE and _are_alike(lines[name], lines[other])
-            ]
+            beside = [level for other, level in found.items() if _meet(lines[name], lines[other], end)]
             found[name] = min(max(beside, default=-1) + 1, farthest)
         levels.append(found)
     return {name: (levels[0][name], levels[1][name]) for name in lines}
 
 
-def _are_alike(one: CuttingLine, other: CuttingLine) -> bool:
-    """Whether lines are in the same view, and their arrows look the same way."""
-    return one.base == other.base and float(np.dot(one.back, other.back)) > 1.0 - EDGE_ON
+def _meet(line: CuttingLine, other: CuttingLine, end: int) -> bool:
+    """Whether the arrows at an end of two lines would lie over one another; no viewer of the other is behind the line's."""
+    if line.base != other.base:
+        return False
+    back = np.array(line.back)
+    same_way = float(back @ other.back)
+    # Arrows reach from their lines to their viewers.
+    behind = float((np.array(other.points[end]) - line.points[end]) @ back)
+    if same_way > 1.0 - EDGE_ON:
+        return behind < TAIL - SAME_PLACE
+    return same_way < EDGE_ON - 1.0 and SAME_PLACE < behind < 2.0 * TAIL - SAME_PLACE
 
 
 def _spread(lines: Mapping[str, CuttingLine], farthest: int) -> dict[str, CuttingLine]:
