@@ -130,6 +130,19 @@ def test_marks_that_are_close_together_lie_side_by_side_at_any_size(size):
     assert (points > 10.0).all() and (points < [page.page.width - 10.0, page.page.height - 10.0]).all()
 
 
+@pytest.mark.parametrize(("apart", "shift"), [(0.0, 0.0), (8.0, FARTHER), (18.0, FARTHER), (20.0, 0.0), (-6.0, 0.0)])
+def test_so_do_those_of_planes_that_look_at_each_other(apart, shift):
+    page = page_of([("front", apart), ("back", 0)], views=["front", "top", "back"], page="A3", scale=1.0)
+    one, other = page.sheet.marks
+    assert not page.notes
+    between = np.hypot(*(ink_of(one)[:, None] - ink_of(other)[None]).T)
+    # In one plane they have their line in common.
+    assert between.min() > (0.9 if apart else -1.0)
+    lines = [np.array(mark.line) for mark in (one, other)]
+    assert (lines[0] - lines[1])[:, 1] == pytest.approx([apart, apart])
+    assert np.abs(lines[0] - lines[1])[:, 0] == pytest.approx([shift, shift], abs=1e-6)
+
+
 @pytest.mark.parametrize(("base", "near"), [("top", 0), ("bottom", 1)])
 def test_only_ends_that_are_close_together_in_one_view_go_farther_out(base, near):
     stepped = (5.0, (-4.0, 20.0))

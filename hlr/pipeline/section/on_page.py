@@ -23,7 +23,7 @@ WIDE = 0.75
 """Of their size: how wide letters are."""
 
 CLEAR = 1.0
-"""Millimetres between the name of a section and the mark of another."""
+"""Millimetres between the name of a section and the mark of another, and from arrow to arrow."""
 
 FARTHEST_ENDS = 4
 """Times `FARTHER`: how far out cutting lines end that are close together, where the page has room for that."""
@@ -156,7 +156,7 @@ def _meet(line: CuttingLine, other: CuttingLine, end: int) -> bool:
     behind = float((np.array(other.points[end]) - line.points[end]) @ back)
     if same_way > 1.0 - EDGE_ON:
         return behind < TAIL - SAME_PLACE
-    return same_way < EDGE_ON - 1.0 and SAME_PLACE < behind < 2.0 * TAIL - SAME_PLACE
+    return same_way < EDGE_ON - 1.0 and SAME_PLACE < behind < 2.0 * TAIL + CLEAR
 
 
 def _spread(lines: Mapping[str, CuttingLine], farthest: int) -> dict[str, CuttingLine]:
