@@ -132,8 +132,8 @@ def end_levels(lines: Mapping[str, CuttingLine], farthest: int = FARTHEST_ENDS) 
     """How far out both ends of cutting lines go, in steps of `FARTHER`, none farther than that many.
 
     Arrows of planes that look the same way and are close together would lie over one another: of two, the end of that
-    which is farther from the viewer goes farther out, for its arrow then lies beyond the other. So would those of planes
-    that look at each other: of two, the later one goes farther out.
+    which is farther from the viewer goes farther out, for its arrow then lies beyond the other. So would those of
+    planes that look at each other: of two, the later one goes farther out.
     """
     levels: list[dict[str, int]] = []
     for end in (0, -1):
@@ -147,7 +147,8 @@ def end_levels(lines: Mapping[str, CuttingLine], farthest: int = FARTHEST_ENDS) 
 
 
 def _meet(line: CuttingLine, other: CuttingLine, end: int) -> bool:
-    """Whether the arrows at an end of two lines would lie over one another; no viewer of the other is behind the line's."""
+    """Whether arrows at an end of two lines would lie over one another. Of lines that look the same way, the other one
+    is nearer to its viewer."""
     if line.base != other.base:
         return False
     back = np.array(line.back)
