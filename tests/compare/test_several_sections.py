@@ -104,3 +104,13 @@ def test_a_section_that_one_page_alone_has_is_new(model, page):
 def test_sections_that_look_alike_are_paired_by_their_names():
     bar = cq.Workplane().box(60, 40, 12)
     assert same(compare(page_of(bar, -10, 10), page_of(bar, -12, 8))) == ["front", "top", "left", "left-B", "iso"]
+
+
+@pytest.mark.parametrize("ending", ["pdf", "dxf", "svg", "json"])
+def test_a_page_of_sections_is_compared_in_the_formats_that_its_refusal_names(model, page, tmp_path, ending):
+    file = page.save(tmp_path / f"page.{ending}")
+    if ending in ("svg", "json"):
+        assert compare(file, model).same
+    else:
+        with pytest.raises(hlr.OptionError, match=r"of several views, .* do not: draw it anew as SVG or JSON"):
+            compare(file, model)

@@ -152,8 +152,8 @@ def _check_section(other: Side) -> None:
         return
     if other.about.stated is None or other.about.stated.section is None:
         raise OptionError(
-            f"{other.title} is a section and does not say where its plane lies, as DXF files before R2004 and files of "
-            "earlier versions do not: draw it anew as SVG, JSON, PDF or DXF"
+            f"{other.title} is a section and does not say where its plane lies, as DXF and PDF files of several views, "
+            "DXF files before R2004 and files of earlier versions do not: draw it anew as SVG or JSON"
         )
 
 
