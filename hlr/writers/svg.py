@@ -173,11 +173,14 @@ def _metadata(drawing: Drawing) -> str:
 def stated_view(drawing: Drawing) -> str:
     """What a PDF or DXF says of a view that its lines do not tell: a section, a window, perspective, any direction.
 
-    "view=front; direction=0 -1 0; ...", as the metadata of an SVG; empty: a whole view that has a name, or a page.
+    "view=front; direction=0 -1 0; ...", as the metadata of an SVG; "views=4" of a page; empty: a whole view that has a
+    name.
     """
+    if drawing.sheet is not None:
+        return f"views={len(drawing.sheet.views)}" if len(drawing.sheet.views) > 1 else ""
     view = drawing.view
     told = drawing.section is None and drawing.window is None and view.eye is None and view.name in NAMED
-    if told or drawing.sheet is not None:
+    if told:
         return ""
     return "; ".join(f"{key}={value}" for key, value in {"view": view.name, **_camera(drawing)}.items())
 

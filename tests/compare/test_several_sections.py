@@ -107,10 +107,21 @@ def test_sections_that_look_alike_are_paired_by_their_names():
 
 
 @pytest.mark.parametrize("ending", ["pdf", "dxf", "svg", "json"])
-def test_a_page_of_sections_is_compared_in_the_formats_that_its_refusal_names(model, page, tmp_path, ending):
-    file = page.save(tmp_path / f"page.{ending}")
+@pytest.mark.parametrize("cut", [True, False])
+def test_a_page_is_compared_with_its_model_in_the_formats_that_its_refusal_names(model, page, tmp_path, cut, ending):
+    file = (page if cut else hlr.draw_arranged(model)).save(tmp_path / f"page.{ending}")
     if ending in ("svg", "json"):
         assert compare(file, model).same
     else:
-        with pytest.raises(hlr.OptionError, match=r"of several views, .* do not: draw it anew as SVG or JSON"):
+        text = r"is a page of \d views, and does not say how the model is seen in them, as the SVG and JSON .* do: "
+        with pytest.raises(hlr.OptionError, match=text):
             compare(file, model)
+        assert compare(file, file).same
+
+
+def test_a_page_in_an_old_dxf_is_refused_where_it_has_sections(model, tmp_path):
+    old = hlr.draw_arranged(
+        model, "first-angle", options=hlr.Options(section=[("left", 15)], scale=1, style={"dxf": "R12"})
+    ).save(tmp_path / "old.dxf")
+    with pytest.raises(hlr.OptionError, match=r"of several views, .* do not: draw it anew as SVG or JSON"):
+        compare(old, model)

@@ -87,6 +87,7 @@ class About:
     left_out  what of the file is no line of the drawing, counted
     stated    the view that it states; None: it states none
     page      of a page by a method of projection: how its views show the model; None: it does not state that
+    several   how many views a page has whose lines do not tell theirs; 0: it is none, or does not say
     view_found  the view of a model, where it was not said: as the other side shows it, of two models the usual one
     """
 
@@ -97,6 +98,7 @@ class About:
     left_out: dict[str, int] = field(default_factory=dict)
     stated: StatedView | None = None
     page: StatedPage | None = None
+    several: int = 0
     view_found: str | None = None
 
 

@@ -18,7 +18,7 @@ from hlr.compare.lines.sketch import About, Sketch, Trait
 from hlr.compare.reading.dashes import CENTRE, HIDDEN, UNKNOWN, VISIBLE
 from hlr.compare.reading.dxf_curves import CURVES
 from hlr.compare.reading.dxf_looks import Looks
-from hlr.compare.reading.stated_view import stated_as_text
+from hlr.compare.reading.stated_view import stated_as_text, views_in_text
 from hlr.errors import SourceError
 from hlr.tables.line_classes import LINE_CLASSES
 from hlr.writers.dxf_entities import APPLICATION
@@ -138,7 +138,8 @@ def _read(document: Document, damaged: int, sketch: Sketch, path: Path) -> About
         sketch.begin(replace(trait, visible=visible, part=part, view=view))
         CURVES[entity.dxftype()](sketch, entity, looks.millimetres)
     ours = document.appids.has_entry(APPLICATION)
-    stated, scale = stated_as_text(str(document.header.custom_vars.get("View", "")) if ours else "")
+    stated_view = str(document.header.custom_vars.get("View", "")) if ours else ""
+    stated, scale = stated_as_text(stated_view)
     return About(
         parts=() if of_freecad else tuple(names),
         views=tuple(names) if of_freecad else (),
@@ -146,6 +147,7 @@ def _read(document: Document, damaged: int, sketch: Sketch, path: Path) -> About
         left_out={word: count for word, count in sorted(found.left_out.items()) if count},
         scale=scale,
         stated=stated,
+        several=views_in_text(stated_view),
     )
 
 

@@ -108,8 +108,8 @@ def side_of_model(
     The view is the one that the other side states, or else the named one that fits its lines best.
     """
     name = Path(given).name if isinstance(given, str | os.PathLike) else None
-    if other is not None and other.about.views:
-        title = f"{other.title} is a page of {len(other.about.views)} views"
+    if other is not None and (several := len(other.about.views) or other.about.several):
+        title = f"{other.title} is a page of {several} views"
         page = other.about.page
         if page is None:
             raise OptionError(f"{title}, {_no_page(given)}")

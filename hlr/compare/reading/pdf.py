@@ -18,7 +18,7 @@ from hlr.compare.lines.sketch import About, Sketch, Trait
 from hlr.compare.reading.dashes import CENTRE, HIDDEN, UNKNOWN, VISIBLE, by_dashes
 from hlr.compare.reading.pdf_paths import Matrix, after, paths_of
 from hlr.compare.reading.pdf_paths import Path as Drawn
-from hlr.compare.reading.stated_view import stated_as_text
+from hlr.compare.reading.stated_view import stated_as_text, views_in_text
 from hlr.errors import SourceError
 from hlr.tables.line_classes import LINE_CLASSES
 
@@ -58,8 +58,10 @@ def read_pdf(path: Path, sketch: Sketch) -> About:
         left_out: Counter[str] = Counter()
         paths = paths_of(page, left_out, path.name)
         if _told(document, "Creator") == "hlr":
-            stated, scale = stated_as_text(_told(document, "View"))
-            about = replace(_read_ours(paths, left_out, sketch), stated=stated, scale=scale)
+            view = _told(document, "View")
+            stated, scale = stated_as_text(view)
+            about = _read_ours(paths, left_out, sketch)
+            about = replace(about, stated=stated, scale=scale, several=views_in_text(view))
         else:
             about = _read_other(paths, left_out, sketch, _told(document, "Producer").startswith("Qt "))
         page.close()

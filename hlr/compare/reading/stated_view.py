@@ -81,6 +81,12 @@ def stated_as_text(text: str) -> tuple[StatedView | None, float | None]:
         return None, None
 
 
+def views_in_text(text: str) -> int:
+    """How many views a page has, of a PDF or DXF of ours: "views=4"; 0: it does not say that it is a page."""
+    number = text.removeprefix("views=")
+    return int(number) if number != text and number.isascii() and number.isdigit() and len(number) < 6 else 0
+
+
 def _vector(text: str) -> Vector:
     x, y, z = _numbers(text)
     return (x, y, z)
