@@ -11,8 +11,6 @@
 //! No modeller makes them. Readers do: a loop around a sphere or a cylinder bounds a face on either side of it, and the
 //! wrong side was taken, the rest of the surface.
 
-use rayon::prelude::*;
-
 use crate::classes::{Classes, EdgeClass, beside, side};
 use crate::continued::one_surface;
 use crate::geometry::surface::Surface;
@@ -24,20 +22,20 @@ use std::f64::consts::PI;
 /// The faces of a part that lie on another, by the numbers of their underlying faces; a face may be named twice.
 pub fn folded(shapes: Shapes, part: &PartTopology, classes: &[Classes]) -> Vec<u32> {
     let sharp = |edge: &u32| classes[*edge as usize].first == EdgeClass::Sharp;
-    let edges = (0..part.edges.len() as u32).into_par_iter();
-    let found = edges.filter(|edge| sharp(edge) && is_folded(shapes, part, *edge));
-    let faces = found.flat_map_iter(|edge| &part.edges[edge as usize].faces);
+    let found = (0..part.edges.len() as u32).filter(|edge| sharp(edge) && is_folded(shapes, part, *edge));
+    let faces = found.flat_map(|edge| &part.edges[edge as usize].faces);
     faces.map(|face| part.faces[*face as usize].face).collect()
 }
 
 fn is_folded(shapes: Shapes, part: &PartTopology, number: u32) -> bool {
     let [one, two] = part.edges[number as usize].faces[..] else { return false };
-    let sides = [one, two].map(|face| side(shapes, part, face, number));
-    let [Some(here), Some(there)] = &sides else { return false };
     // A loop in a plane bounds a face on one side only.
-    if [here, there].iter().any(|side| matches!(side.surface, Surface::Plane(_))) {
+    let surface = |face: u32| &shapes.faces[part.faces[face as usize].face as usize].surface;
+    if [one, two].iter().any(|&face| matches!(surface(face), Some(Surface::Plane(_)) | None)) {
         return false;
     }
+    let sides = [one, two].map(|face| side(shapes, part, face, number));
+    let [Some(here), Some(there)] = &sides else { return false };
     let opposed = angle(&[Fixed::new(here), Fixed::new(there)], 0.5).is_some_and(|angle| angle >= PI - TANGENT);
     // Where both have the edge in the same sense, one of them is merely turned around.
     let [Some(one), Some(two)] = [one, two].map(|face| beside(shapes, part, (face, number))) else { return false };
