@@ -63,7 +63,7 @@ CODES: dict[NoteCode, str] = {
     "faces-mended": "outlines of faces are broken in the model: OpenCASCADE meshed them, if need be mended",
     "loops-crossed": "outlines or holes of faces cross or touch in the model; what they run around is drawn",
     "loops-turned": "outlines or holes of faces run the wrong way round in the model; they are drawn as they are meant",
-    "faces-folded": "faces lie on one another beside an edge: one was read as the rest of its surface",
+    "faces-folded": "faces lie on one another beside an edge: one may have been read as the rest of its surface",
     "surfaces-torn": "surfaces of faces fold over themselves or jump in the model; they are drawn as they are",
     "faces-too-coarse": "faces take too much work to mesh them as finely as needed; their meshes are coarser",
     "faces-off-edges": "faces lie off their own edges in the model, by more than half of the accuracy",

@@ -11,7 +11,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from hlr.common.types import Floats
 from hlr.drawing.hatch_pattern import Row
@@ -74,10 +73,10 @@ def patterns_of(parts: Mapping[str, Sequence[Floats]], paper: float) -> dict[str
     # The large faces come first: they have the usual lines.
     order = sorted(parts, key=lambda name: (-areas[name], name))
     boxes = np.array([_box(parts[name]) for name in order]).reshape(-1, 2, 2)
-    borders = [_Border(_box(parts[name]), sides_of(parts[name]), _starts(parts[name])) for name in order]
+    sides = [sides_of(parts[name]) for name in order]
     found: list[Pattern] = []
     for k, name in enumerate(order):
-        near = [found[other] for other in _meeting(boxes, k) if _touch(borders[k], borders[other])]
+        near = [found[other] for other in _meeting(boxes, k) if _touch(boxes[k], boxes[other], sides[k], sides[other])]
         low, high = boxes[k]
         least = float(np.hypot(*(high - low))) / MOST_ACROSS
         usual = _usual(areas[name], paper)
@@ -133,30 +132,15 @@ def _meeting(boxes: Floats, number: int) -> list[int]:
     return found
 
 
-@dataclass(frozen=True, slots=True)
-class _Border:
-    """Where cut faces of a part end. box: two corners (2,); sides (n, 2, 2); starts (k, 2): of each loop a corner."""
-
-    box: tuple[Floats, Floats]
-    sides: Floats
-    starts: Floats
-
-
-def _touch(one: _Border, other: _Border) -> bool:
-    """Whether two parts touch, or pass through one another, whose boxes meet."""
-    low = np.maximum(one.box[0], other.box[0]) - TOUCH
-    high = np.minimum(one.box[1], other.box[1]) + TOUCH
-    a, b = (_reaching(border.sides, low, high) for border in (one, other))
-    if 3 * len(a) * len(b) > MOST_COMPARED:
+def _touch(one: Floats, other: Floats, a: Floats, b: Floats) -> bool:
+    """Whether two parts touch, or pass through one another, whose boxes (2, 2) meet. a, b: their sides."""
+    low, high = np.maximum(one[0], other[0]) - TOUCH, np.minimum(one[1], other[1]) + TOUCH
+    of_a, of_b = (_reaching(sides, low, high) for sides in (a, b))
+    if max(2 * len(of_a) * len(of_b), len(of_a) * len(b) + len(of_b) * len(a)) > MOST_COMPARED:
         return True
-    if any(_near(a[:, 0], b)) or any(_near(b[:, 0], a)) or any(_cross(a, b)):
+    if any(_near(of_a[:, 0], of_b)) or any(_near(of_b[:, 0], of_a)):
         return True
-    # Now each loop lies wholly inside the other part, or wholly outside.
-    return _inside(one.starts, other.sides) or _inside(other.starts, one.sides)
-
-
-def _starts(loops: Sequence[Floats]) -> Floats:
-    return np.array([loop[0] for loop in loops])
+    return any(len(inside(sides, others, winding=True)) for sides, others in ((of_a, b), (of_b, a)))
 
 
 def _reaching(sides: Floats, low: Floats, high: Floats) -> Floats:
@@ -175,33 +159,3 @@ def _near(points: Floats, sides: Floats) -> Iterator[bool]:
         away = points[k : k + few, None] - start
         along = np.clip((away * way).sum(axis=2) / length, 0.0, 1.0)
         yield bool((((away - along[..., None] * way) ** 2).sum(axis=2) <= TOUCH * TOUCH).any())
-
-
-def _cross(a: Floats, b: Floats) -> Iterator[bool]:
-    """Whether any of some sides (n, 2, 2) crosses one of others (m, 2, 2); a few at a time."""
-    if not len(b):
-        return
-    few = max(1, PAIRS // len(b))
-    for k in range(0, len(a), few):
-        some = a[k : k + few, None]
-        yield bool((_parts(some, b) & _parts(b, some)).any())
-
-
-def _parts(line: Floats, sides: Floats) -> npt.NDArray[np.bool_]:
-    """Whether the ends of sides (..., 2, 2) lie on either side of a straight line through two points (..., 2, 2)."""
-    start, way = line[..., 0, :], line[..., 1, :] - line[..., 0, :]
-    ends = (sides[..., end, :] - start for end in (0, 1))
-    before, after = (way[..., 0] * end[..., 1] - way[..., 1] * end[..., 0] for end in ends)
-    return np.asarray(before * after < 0.0)
-
-
-def _inside(points: Floats, sides: Floats) -> bool:
-    """Whether loops with these sides (m, 2, 2), holes the other way round, wind around any of some points (n, 2)."""
-    (x0, y0), (x1, y1) = sides[:, 0].T, sides[:, 1].T
-    for x, y in points:
-        up = (y0 <= y).astype(int) - (y1 <= y)
-        passed = up != 0
-        to_right = x0[passed] + (y - y0[passed]) / (y1 - y0)[passed] * (x1 - x0)[passed] > x
-        if up[passed][to_right].sum():
-            return True
-    return False

@@ -5,6 +5,7 @@ import pytest
 
 import hlr
 from hlr.compare import compare
+from hlr.compare.reading.stated_view import views_in_text
 
 
 @pytest.fixture(scope="module")
@@ -117,6 +118,14 @@ def test_a_page_is_compared_with_its_model_in_the_formats_that_its_refusal_names
         with pytest.raises(hlr.OptionError, match=text):
             compare(file, model)
         assert compare(file, file).same
+
+
+@pytest.mark.parametrize(
+    ("text", "views"),
+    [("views=4", 4), ("", 0), ("views=", 0), ("views=-4", 0), ("views=²", 0), ("view=top; up=0 1 0", 0)],
+)
+def test_how_many_views_a_page_has_is_read_or_not_said(text, views):
+    assert views_in_text(text) == views
 
 
 def test_a_page_in_an_old_dxf_is_refused_where_it_has_sections(model, tmp_path):

@@ -67,7 +67,7 @@ class MeshingFaults:
             what = f"{have} an outline or a hole that runs the wrong way round"
             notes.append(Note("loops-turned", f"{of.format(len(turned))} {what} ({_listed(turned)})."))
         if folded:
-            what = "lie on one another beside a common edge: a reader took the rest of a surface for one of them"
+            what = "lie on one another beside a common edge: one may have been read as the rest of its surface"
             notes.append(Note("faces-folded", f"{of.format(len(folded))} {what} ({_listed(folded)})."))
         if torn:
             one = len(torn) == 1
