@@ -48,12 +48,12 @@ def test_obliquely_the_inner_outline_has_cusps_and_rays_agree(picture, height):
     points, triangles = torus(MAJOR, MINOR, N, M)
     drawing = hlr.draw((points, triangles), (0.3, -1, height), **AT_SIZE)
     judged, wrong = wrong_by_rays(drawing, points, triangles)
-    assert judged >= 15
+    # Five places on each line, of which there are two at least: the outer outline, and the inner one.
+    assert judged >= 10
     assert wrong == 0
     if height == 0.3:
         picture(drawing, "cusps", twice=10.0)
 
 
-@pytest.mark.xfail(strict=True, reason="on the hollow side the contour of a mesh runs to and fro along the facets")
 def test_no_outline_runs_back_over_itself():
     assert doubled(hlr.draw(torus(MAJOR, MINOR, N, M), (0.3, -1, 0.3), **AT_SIZE)) == 0.0

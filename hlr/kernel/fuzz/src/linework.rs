@@ -8,7 +8,8 @@ use hlr_linework::lines::coincident::{Widths, uncovered};
 use hlr_linework::lines::cut::{Tolerances, Trait, cut as drawn, ranked};
 use hlr_linework::lines::drawing::Kind;
 use hlr_linework::lines::ends::Ends;
-use hlr_linework::lines::runs::{Geometry, Limits, Piece, cut};
+use hlr_linework::lines::geometry::{Geometry, Piece};
+use hlr_linework::lines::runs::cut;
 use hlr_linework::lines::simplify::simplify;
 use hlr_linework::lines::specks::drop_specks;
 use hlr_linework::lines::{Polyline, View, distance};
@@ -26,7 +27,6 @@ struct Case {
     pieces: Vec<Piece>,
     piece_edge: Vec<i32>,
     chains: Vec<(Vec<i32>, Vec<bool>)>,
-    limits: Limits,
     tolerances: Tolerances,
     traits: Vec<Trait>,
     /// Pieces ascend and do not overlap, as the visibility pass makes them.
@@ -46,13 +46,8 @@ pub fn run(data: &[u8]) {
     };
     let mut lines = Vec::new();
     for (id, (edges, reversed)) in case.chains.iter().enumerate() {
-        let mut limits = case.limits;
-        if case.traits[id].noisy {
-            limits.noise = geometry.noise(edges, limits.short);
-        }
-        if case.kind() == Kind::INTERSECTION && case.traits[id].without_brep {
-            limits.end_on = case.tolerances.space;
-        }
+        let noise = || geometry.noise(edges, case.tolerances.short);
+        let limits = case.tolerances.limits(&case.traits[id], case.kind() == Kind::INTERSECTION, noise);
         lines.extend(cut(&geometry, edges, reversed, id as u32, &limits, &|_| false));
     }
     check_lines(&case, &lines, "cut");
@@ -66,9 +61,12 @@ pub fn run(data: &[u8]) {
     check_lines(&case, &lines, "uncovered");
     check_cover(&case, &all, &lines);
     let kept = lines.clone();
-    drop_specks(&mut lines, case.limits.short);
+    drop_specks(&mut lines, case.tolerances.short);
     assert!(lines.iter().all(|l| kept.contains(l)), "specks: a line was changed");
-    assert!(kept.iter().all(|l| l.length() < case.limits.short || lines.contains(l)), "specks: a long line was lost");
+    assert!(
+        kept.iter().all(|l| l.length() < case.tolerances.short || lines.contains(l)),
+        "specks: a long line was lost"
+    );
     let ends = Ends::of(&lines);
     let unthinned = lines.clone();
     for line in &mut lines {
@@ -193,7 +191,6 @@ fn read(bytes: &mut Bytes) -> Case {
         pieces,
         piece_edge,
         chains,
-        limits: Limits { short: accuracy, stub: 10.0 * accuracy, noise: accuracy, end_on: f64::INFINITY },
         tolerances: Tolerances {
             accuracy,
             short: accuracy,
@@ -246,7 +243,7 @@ fn check_lines(case: &Case, lines: &[Polyline], step: &str) {
     }
 }
 
-/// Settling states moves ends of lines about, but draws each piece of each chain once.
+/// Settling states moves ends of lines about, but draws each piece of each chain once. Contours of meshes lose loops.
 fn check_length(case: &Case, lines: &[Polyline]) {
     if !case.sane() {
         return;
@@ -261,13 +258,17 @@ fn check_length(case: &Case, lines: &[Polyline]) {
             })
             .sum();
         let found: f64 = lines.iter().filter(|l| l.chain == id as u32).map(Polyline::length).sum();
+        if case.traits[id].noisy && case.traits[id].without_brep {
+            assert!(found <= wanted + 1e-9 * (wanted + case.extent()), "chain {id}: {found} drawn of {wanted}");
+            continue;
+        }
         assert!((found - wanted).abs() <= 1e-9 * (wanted + case.extent()), "chain {id}: {found} drawn of {wanted}");
     }
 }
 
 /// Nothing is lost where coincident lines are drawn once: beside every point there is still a line.
 fn check_cover(case: &Case, before: &[Polyline], after: &[Polyline]) {
-    if !case.sane() || case.limits.short > 0.2 * case.extent() {
+    if !case.sane() || case.tolerances.short > 0.2 * case.extent() {
         return;
     }
     // A line yields to another within a width, that one to a third; gaps of two widths are closed along the line.

@@ -21,7 +21,7 @@ use hlr_linework::lines::candidates::{About, Chains as Walks};
 use hlr_linework::lines::coincident::Widths;
 use hlr_linework::lines::cut::{Cut as Found, Tolerances, Trait, cut};
 use hlr_linework::lines::finish::{finish, guide};
-use hlr_linework::lines::runs::Geometry;
+use hlr_linework::lines::geometry::Geometry;
 
 /// How far lines may be off, and which lines are too short to be drawn.
 #[pyclass(frozen)]

@@ -12,7 +12,7 @@ use super::stretches::Stretches;
 use super::threads::run;
 use super::view::{Flat, arrays, flat};
 use super::visibility_input::VisibilityInput;
-use hlr_linework::lines::runs::Piece;
+use hlr_linework::lines::geometry::Piece;
 use hlr_visibility::scan::drawn::as_drawn;
 use hlr_visibility::scan::invisibility::State;
 use hlr_visibility::scan::own_faces::OwnFaces;

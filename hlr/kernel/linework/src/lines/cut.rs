@@ -6,8 +6,9 @@ use super::candidates::Chains;
 use super::coincident::{Widths, uncovered};
 use super::drawing::Kind;
 use super::ends::Ends;
+use super::geometry::Geometry;
 use super::meetings::Meetings;
-use super::runs::{self, Geometry, Limits};
+use super::runs::{self, Limits};
 use super::simplify::simplify;
 use super::specks::drop_specks;
 use super::{Polyline, View};
@@ -40,6 +41,20 @@ pub struct Trait {
     pub noisy: bool,
 }
 
+impl Tolerances {
+    /// The limits within which the runs of a chain are decided. `noise`: see `Geometry::noise`, of the contour of a mesh.
+    pub fn limits(&self, of: &Trait, is_intersection: bool, noise: impl FnOnce() -> f64) -> Limits {
+        Limits {
+            short: self.flip,
+            stub: self.stub,
+            noise: if of.noisy { noise() } else { self.flip },
+            loops: if of.noisy && of.without_brep { self.short } else { 0.0 },
+            // Other lines of meshes may be smoothed across what is seen end-on, and lines of B-reps have their curves.
+            end_on: if is_intersection && of.without_brep { self.space } else { f64::INFINITY },
+        }
+    }
+}
+
 /// Lines, and the smooth curves of the contours of meshes among them.
 #[derive(Default)]
 pub struct Cut {
@@ -59,20 +74,12 @@ pub fn cut(
 ) -> Option<Cut> {
     let view = &geometry.camera.view();
     let met = Meetings::new(geometry, chains, t.accuracy / geometry.camera.scale);
-    let limits = Limits { short: t.flip, stub: t.stub, noise: t.flip, end_on: f64::INFINITY };
     let lines: Vec<Polyline> = (0..traits.len())
         .into_par_iter()
         .flat_map_iter(|c| {
             let (edges, reversed) = chains.of(c);
-            let mut limits = limits;
-            if traits[c].noisy {
-                limits.noise = geometry.noise(edges, t.short);
-            }
             let is_intersection = chains.about[c].kind == Kind::INTERSECTION;
-            // Other lines of meshes may be smoothed across what is seen end-on, and lines of B-reps have their curves.
-            if is_intersection && traits[c].without_brep {
-                limits.end_on = t.space;
-            }
+            let limits = t.limits(&traits[c], is_intersection, || geometry.noise(edges, t.short));
             // Intersection lines go through nothing: they lie on both surfaces.
             let through = |p: &[f64; 3]| !is_intersection && met.at(p);
             runs::cut(geometry, edges, reversed, c as u32, &limits, &through)

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 
 use super::candidates::Chains;
 use super::drawing::Kind;
-use super::runs::Geometry;
+use super::geometry::Geometry;
 use crate::fit::pierced::Meeting;
 use hlr_brep::geometry::vector::{Vector, along, dot, length, sub};
 

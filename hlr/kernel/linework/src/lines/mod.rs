@@ -2,7 +2,8 @@
 //!
 //! 1. `chain`       mesh edges that continue one another become chains (edges of the source are chains already;
 //!    `candidates` adds the contours of the mesh)
-//! 2. `runs`        along a chain equal states join, doubtful and short runs are decided, and lines are cut out
+//! 2. `runs`        along a chain (`geometry`) equal states join, doubtful and short runs are decided, and lines are cut
+//!    out; `loops` are cut off the contours of meshes
 //! 3. `coincident`  of lines that coincide on paper one is kept, visible before hidden; `gaps` cuts out the others,
 //!    `stretches` says what covers what, `pairs` finds those beside one another, `drawn` where there are very
 //!    many, both in square `cells` of the paper
@@ -25,6 +26,8 @@ mod drawn;
 pub mod ends;
 pub mod finish;
 mod gaps;
+pub mod geometry;
+mod loops;
 mod meetings;
 mod members;
 mod pairs;

@@ -8,59 +8,11 @@
 
 use smallvec::{SmallVec, smallvec};
 
-use super::camera::Camera;
+use super::geometry::{Chain, Geometry};
+use super::loops::Kept;
 use super::{Polyline, distance};
-use hlr_accuracy::RUN_NOISE;
 use hlr_brep::geometry::vector::{length, sub};
 use hlr_visibility::scan::invisibility::State;
-
-/// A piece of one mesh edge; parameters run from the edge's first to its second vertex.
-#[derive(Clone, Copy, Debug)]
-pub struct Piece {
-    pub start: f64,
-    pub end: f64,
-    pub state: State,
-}
-
-/// All edges of a mesh, and the pieces of those that are drawn. Only what the chains use is looked at.
-pub struct Geometry<'a> {
-    pub camera: &'a Camera,
-    /// Model coordinates.
-    pub space: &'a [[f64; 3]],
-    /// The same before points moved onto true intersection lines: where visibility was decided.
-    pub meshed: &'a [[f64; 3]],
-    pub edges: &'a [[i32; 2]],
-    /// Sorted by edge, those of one edge along it; and the edge of each.
-    pub pieces: &'a [Piece],
-    pub piece_edge: &'a [i32],
-}
-
-impl Geometry<'_> {
-    /// A point in millimetres on paper.
-    fn flat(&self, point: usize) -> [f64; 2] {
-        self.camera.point(&self.space[point])
-    }
-
-    fn pieces_of(&self, edge: i32) -> &[Piece] {
-        let first = self.piece_edge.partition_point(|&e| e < edge);
-        let count = self.piece_edge[first..].iter().take_while(|&&e| e == edge).count();
-        &self.pieces[first..first + count]
-    }
-
-    /// The length (mm on paper) below which hidden runs of a mesh contour are noise. On saddle-shaped surfaces such a
-    /// contour folds back and forth by an edge or two and hides itself there.
-    pub fn noise(&self, edges: &[i32], short: f64) -> f64 {
-        let total: f64 = edges
-            .iter()
-            .map(|&e| self.edges[e as usize])
-            .map(|[a, b]| distance(&self.flat(a as usize), &self.flat(b as usize)))
-            .sum();
-        short.max((NOISE_EDGES * total / edges.len().max(1) as f64).min(RUN_NOISE * short))
-    }
-}
-
-/// Hidden runs of fewer mean edge lengths of the chain are noise.
-const NOISE_EDGES: f64 = 2.5;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
@@ -71,6 +23,8 @@ pub struct Limits {
     /// A hidden run shorter than this between visible ones is visible: only the contour's own folds hide it. A short
     /// visible run never becomes hidden so, for a true outline may be broken into many such runs.
     pub noise: f64,
+    /// Loops that reach no farther than this beside the lines that stay are cut off; 0: none is.
+    pub loops: f64,
     /// A line ends, and another begins, where it is seen end-on for longer than this, in model units.
     pub end_on: f64,
 }
@@ -87,35 +41,7 @@ struct Run {
 /// Runs one after another; most lines have one or two.
 type Runs = SmallVec<[Run; 2]>;
 
-struct Chain<'a> {
-    geometry: &'a Geometry<'a>,
-    edges: &'a [i32],
-    reversed: &'a [bool],
-}
-
 impl Chain<'_> {
-    fn ends(&self, k: usize) -> (usize, usize) {
-        let [a, b] = self.geometry.edges[self.edges[k] as usize];
-        if self.reversed[k] { (b as usize, a as usize) } else { (a as usize, b as usize) }
-    }
-
-    fn at(&self, (k, t): (usize, f64)) -> ([f64; 2], [f64; 3]) {
-        let g = self.geometry;
-        let (a, b) = self.ends(k);
-        if t <= 0.0 {
-            return (g.flat(a), g.space[a]);
-        }
-        if t >= 1.0 {
-            return (g.flat(b), g.space[b]);
-        }
-        let (view, p, q) = (g.camera.view(), &g.space[a], &g.space[b]);
-        let u = view.in_space(t, view.depth(p), view.depth(q));
-        let mix = |x: f64, y: f64, t: f64| x + (y - x) * t;
-        let ends = [g.flat(a), g.flat(b)];
-        let flat = [0, 1].map(|k| mix(ends[0][k], ends[1][k], t));
-        (flat, [mix(p[0], q[0], u), mix(p[1], q[1], u), mix(p[2], q[2], u)])
-    }
-
     /// Contiguous stretches, each a list of runs in alternating states.
     fn stretches(&self) -> SmallVec<[Runs; 1]> {
         let g = self.geometry;
@@ -125,6 +51,10 @@ impl Chain<'_> {
             let pieces = g.pieces_of(self.edges[k]);
             let (a, b) = self.ends(k);
             broken |= k > 0 && self.ends(k - 1).1 != a;
+            let [low, high] = self.kept.range(k);
+            if low > high {
+                continue;
+            }
             if pieces.is_empty() {
                 // An edge seen end-on has no pieces; the chain continues. Other edges without pieces were clipped.
                 broken |= g.flat(a) != g.flat(b);
@@ -135,6 +65,10 @@ impl Chain<'_> {
                 let piece = if self.reversed[k] { &pieces[pieces.len() - 1 - i] } else { &pieces[i] };
                 let (s, t) =
                     if self.reversed[k] { (1.0 - piece.end, 1.0 - piece.start) } else { (piece.start, piece.end) };
+                let (s, t) = (s.max(low), t.min(high));
+                if s >= t {
+                    continue;
+                }
                 let run = Run { state: piece.state, from: (k, s), to: (k, t), length: whole * (t - s) };
                 match out.last_mut() {
                     Some(last) if !broken => join(last, run),
@@ -187,7 +121,10 @@ impl Chain<'_> {
         for run in runs {
             put(run.from);
             for k in run.from.0..run.to.0 {
-                put((k, 1.0));
+                let [low, high] = self.kept.range(k);
+                if low < high {
+                    put((k, high));
+                }
             }
             put(run.to);
         }
@@ -324,7 +261,10 @@ pub fn cut(
     limits: &Limits,
     through: &dyn Fn(&[f64; 3]) -> bool,
 ) -> Vec<Polyline> {
-    let chain = Chain { geometry, edges, reversed };
+    let mut chain = Chain { geometry, edges, reversed, kept: Kept::default() };
+    if limits.loops > 0.0 {
+        chain.cut_off_loops(limits.loops);
+    }
     let mut out = Vec::new();
     let stretches = chain.stretches();
     let closed = chain.closed(&stretches);

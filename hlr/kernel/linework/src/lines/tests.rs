@@ -11,7 +11,7 @@ use super::coincident::Widths;
 use super::cut::{Tolerances, Trait, cut};
 use super::drawing::{Curve as Shape, Kind, Lines};
 use super::finish::{finish, guide};
-use super::runs::{Geometry, Piece};
+use super::geometry::{Geometry, Piece};
 use crate::fit::routes::{Curves, Fit};
 
 /// From above, two millimetres on paper per model unit.

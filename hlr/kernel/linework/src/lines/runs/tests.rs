@@ -1,9 +1,11 @@
+use super::super::camera::Camera;
+use super::super::geometry::Piece;
 use super::*;
 
 /// Along z: x and y are those on paper.
 const CAMERA: Camera =
     Camera { direction: [0.0, 0.0, -1.0], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0], eye: None, scale: 1.0 };
-const LIMITS: Limits = Limits { short: 0.5, stub: 2.0, noise: 0.5, end_on: f64::INFINITY };
+const LIMITS: Limits = Limits { short: 0.5, stub: 2.0, noise: 0.5, loops: 0.0, end_on: f64::INFINITY };
 
 /// Lines along a straight chain of unit edges with the given states: (visible, x from, x to).
 fn lines(states: &[State]) -> Vec<(bool, f64, f64)> {
@@ -152,4 +154,36 @@ fn a_line_is_divided_where_it_runs_far_along_the_line_of_sight() {
     assert_eq!(lines(&[0.0, 0.9], 1.0).len(), 1);
     assert_eq!(lines(&[0.0, 0.6, 1.2], 1.0).len(), 2);
     assert_eq!(lines(&[0.0, 3.0], f64::INFINITY), [[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 3.0]]]);
+}
+
+#[test]
+fn a_contour_goes_on_at_where_a_loop_is_cut_off() {
+    use State::{Hidden as H, Visible as V};
+    // Two edges that cross at (5, 0.5), and one that leads back; the loop reaches 0.13 beside them.
+    let space = [[0.0, 0.0, 0.0], [6.0, 0.6, 2.0], [4.0, 0.6, 4.0], [10.0, 0.0, 6.0]];
+    let edges = [[0, 1], [2, 1], [2, 3]];
+    let found = |states: [State; 3], loops: f64| {
+        let pieces = states.map(|state| Piece { start: 0.0, end: 1.0, state });
+        let g = Geometry {
+            camera: &CAMERA,
+            space: &space,
+            meshed: &space,
+            edges: &edges,
+            pieces: &pieces,
+            piece_edge: &[0, 1, 2],
+        };
+        let limits = Limits { short: 0.1, noise: 0.1, loops, ..LIMITS };
+        cut(&g, &[0, 1, 2], &[false, true, false], 0, &limits, &|_| false)
+    };
+    assert_eq!(found([V, H, V], 0.0).len(), 3, "not asked for");
+    let whole = found([V, H, V], 0.01);
+    assert_eq!(whole.len(), 1, "{whole:?}");
+    assert!(whole[0].visible && whole[0].flat.len() == 3 && whole[0].space.len() == 3);
+    assert!(distance(&whole[0].flat[1], &[5.0, 0.5]) < 1e-9);
+    // Of what is seen the nearer place stands for both, of what is hidden the farther one.
+    assert!((whole[0].space[1][2] - 5.0 / 3.0).abs() < 1e-9, "{whole:?}");
+    let hidden = found([H, V, H], 0.01);
+    assert!(hidden.len() == 1 && !hidden[0].visible && (hidden[0].space[1][2] - 13.0 / 3.0).abs() < 1e-9, "{hidden:?}");
+    // What is seen does not go on as what is hidden.
+    assert_eq!(found([V, V, H], 0.01).iter().map(|line| line.flat.len()).collect::<Vec<_>>(), [3, 2]);
 }
