@@ -6,11 +6,14 @@ from collections import Counter
 from itertools import pairwise
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from hlr import Drawing, Line
 from hlr.lab.sampling import with_ends
 
 DIGITS = 6
+FIRST = 4
+"""Pieces that are tried for each point before it is asked whether another one may be nearer."""
 
 
 def counts(drawing: Drawing) -> Counter[tuple[str, bool]]:
@@ -53,12 +56,33 @@ def samples(pieces: np.ndarray, step: float) -> np.ndarray:
 def distances(points: np.ndarray, pieces: np.ndarray) -> np.ndarray:
     """(m,) from each point to the nearest piece."""
     best = np.full(len(points), np.inf)
-    for a, b in pieces:
-        d = b - a
-        square = float(d @ d)
-        t = np.clip(((points - a) @ d) / square, 0.0, 1.0) if square else np.zeros(len(points))
-        best = np.minimum(best, np.hypot(*(points - a - t[:, None] * d).T))
+    half = np.hypot(*(pieces[:, 1] - pieces[:, 0]).T) / 2
+    # Pieces about as long as one another: how far their middles are says which of them may be the nearest.
+    sizes = np.frexp(half)[1] // 3
+    for size in np.unique(sizes):
+        _nearer(points, pieces[sizes == size], half[sizes == size].max(), best)
     return best
+
+
+def _nearer(points: np.ndarray, pieces: np.ndarray, half: float, best: np.ndarray) -> None:
+    """Lower `best` where one of these pieces is nearer; half: half the length of the longest."""
+    tree, left, many = cKDTree(pieces.mean(axis=1)), np.arange(len(points)), min(FIRST, len(pieces))
+    while len(left):
+        away, number = tree.query(points[left], range(1, many + 1))
+        best[left] = np.minimum(best[left], _to_pieces(points[left], pieces[number.T]).min(axis=0))
+        if many == len(pieces):
+            return
+        # No other piece has a nearer middle.
+        left, many = left[away[:, -1] - half < best[left]], min(2 * many, len(pieces))
+
+
+def _to_pieces(points: np.ndarray, pieces: np.ndarray) -> np.ndarray:
+    """(k, m) from each of the points (m, 2) to k pieces (k, m, 2, 2) of its own."""
+    way, off = pieces[:, :, 1] - pieces[:, :, 0], points - pieces[:, :, 0]
+    square = np.einsum("kmi,kmi->km", way, way)
+    t = np.clip(np.einsum("kmi,kmi->km", off, way) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+    off -= t[:, :, None] * way
+    return np.hypot(off[:, :, 0], off[:, :, 1])
 
 
 def apart(one: np.ndarray, other: np.ndarray, step: float = 0.5) -> float:
@@ -79,8 +103,9 @@ def drawn_twice(drawing: Drawing, width: float | None = None) -> float:
         d = d / size
         normal = np.array([-d[1], d[0]])
         others = pieces[i + 1 :]
-        off = np.abs((others - a) @ normal).max(axis=1, initial=0.0)
-        along = (others - a) @ d
+        off = np.abs((others - a) @ normal)
+        near = (off[:, 0] < width) & (off[:, 1] < width)
+        along = (others[near] - a) @ d
         overlap = np.minimum(along.max(axis=1), size) - np.maximum(along.min(axis=1), 0.0)
-        total += float(overlap[(off < width) & (overlap > 2 * width)].sum())
+        total += float(overlap[overlap > 2 * width].sum())
     return total
