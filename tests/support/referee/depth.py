@@ -18,6 +18,8 @@ PIXELS = 1000
 """Along the longer side of the paper."""
 STEEPEST = 1e-6
 """Cosine between sight and normal of what is as good as edge-on."""
+AT_ONCE = 8192
+"""Rays: what is computed of so many stays in the cache of a processor."""
 MARGIN = 5
 """Pixels around what is drawn."""
 
@@ -103,19 +105,25 @@ class Depths:
 
     def at(self, paper: Floats) -> Hits:
         """The first hits at points (..., 2) on paper."""
-        flat = paper.reshape(-1, 2)
-        starts, toward = self.drawing.rays(flat, self._back)
+        flat, shape = paper.reshape(-1, 2), paper.shape[:-1]
+        hits = Hits(np.empty(len(flat)), np.empty((len(flat), 3)), np.empty((len(flat), 2)))
+        for start in range(0, len(flat), AT_ONCE):
+            part = slice(start, start + AT_ONCE)
+            self._cast(flat[part], hits[part])
+        return Hits(hits.depth.reshape(shape), hits.normal.reshape(*shape, 3), hits.slope.reshape(*shape, 2))
+
+    def _cast(self, paper: Floats, into: Hits) -> None:
+        """Write the first hits at points (n, 2) into arrays."""
+        starts, toward = self.drawing.rays(paper, self._back)
         far, triangle = self._caster.first(starts, toward)
         normal = self._caster.normals[triangle]
         away = dots(normal, toward)
-        normal = normal * np.where(away > 0, -1.0, 1.0)[:, None]
+        np.multiply(normal, np.where(away > 0, -1.0, 1.0)[:, None], out=into.normal)
         met = triangle >= 0
-        depth = np.full(len(flat), np.inf)
+        into.depth[:] = np.inf
         if met.any():
             place = starts[met] + far[met, None] * toward[met]
-            depth[met] = far[met] * self.drawing.magnification(place)
+            into.depth[met] = far[met] * self.drawing.magnification(place)
         facing = np.minimum(-np.abs(away), -STEEPEST)
         camera = self.drawing.camera
-        slope = normal @ np.stack([camera.right, camera.up], axis=1) / -facing[:, None]
-        shape = paper.shape[:-1]
-        return Hits(depth.reshape(shape), normal.reshape(*shape, 3), slope.reshape(*shape, 2))
+        into.slope[:] = into.normal @ np.stack([camera.right, camera.up], axis=1) / -facing[:, None]
