@@ -81,7 +81,7 @@ def _peaks(moving: Pieces, fixed: Pieces) -> Iterator[Floats]:
     low_a, low_b = a.min(axis=0), b.min(axis=0)
     size = np.maximum(np.ptp(a, axis=0), np.ptp(b, axis=0))
     cell = max(float(size.max()) / _CELLS, 1e-3)
-    shape = tuple(int(2 ** np.ceil(np.log2(2.0 * side / cell + 4.0))) for side in size)
+    shape = tuple(_quick(int(np.ceil(2.0 * side / cell + 4.0))) for side in size)
     one, two = (np.fft.fft2(_picture(each, low, cell, shape)) for each, low in ((moving, low_a), (fixed, low_b)))
     score = np.fft.ifft2(two * np.conj(one)).real
     for _ in range(_PEAKS):
@@ -90,6 +90,12 @@ def _peaks(moving: Pieces, fixed: Pieces) -> Iterator[Floats]:
         yield step * cell + low_b - low_a
         near = [np.arange(at - 2, at + 3) % length for at, length in zip(peak, shape, strict=True)]
         score[np.ix_(*near)] = -np.inf
+
+
+def _quick(length: int) -> int:
+    """A length of at least so much, though not much more, that a Fourier transform divides well."""
+    step = 1 << max((length - 1).bit_length() - 4, 0)
+    return -(-length // step) * step
 
 
 def _picture(pieces: Pieces, low: Floats, cell: float, shape: tuple[int, ...]) -> Floats:
