@@ -15,6 +15,7 @@ from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line
 from hlr.source.cad.shapes import sub_shapes
 from hlr.source.transforms import transform_points
+from support.measures import distances
 
 Floats = npt.NDArray[np.float64]
 
@@ -84,11 +85,7 @@ def bends_without_curve(line: Line, accuracy: float) -> bool:
 
 def distance(points: np.ndarray, path: np.ndarray) -> float:
     """Largest distance of points to a polyline."""
-    a, way = path[:-1], np.diff(path, axis=0)
-    d = points[:, None] - a
-    size = np.maximum((way * way).sum(axis=1), 1e-300)
-    t = np.clip((d * way).sum(axis=2) / size, 0.0, 1.0)[..., None]
-    return float(np.sqrt(((d - way * t) ** 2).sum(axis=2)).min(axis=1).max())
+    return float(distances(points, np.stack([path[:-1], path[1:]], axis=1)).max())
 
 
 def measured(drawing: Drawing, true: Any) -> tuple[float, float, Counter[str], str]:
