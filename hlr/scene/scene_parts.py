@@ -117,10 +117,10 @@ def scene_parts(
     counted = {i: reports.of(i) for i in sorted(wrong)}
     of_faces: Collection[str] = ()
     bordering = [0] * len(reports)
-    if any([counts[0] for _, _, counts in counted.values()]):
+    if any([counts[0] or counts[5] for _, _, counts in counted.values()]):
         of_faces = surface_parts()
-        if whole.tables.brep_parts:
-            bordering = _border_edges(found, offsets, len(reports))
+    if whole.tables.brep_parts and any([counts[0] for _, _, counts in counted.values()]):
+        bordering = _border_edges(found, offsets, len(reports))
     defects_of = {}
     for i, (brep, _, (border, crowded, turned, flat, _, outside_in, _, _)) in counted.items():
         of_surfaces, open_edges = whole.labels[i].name in of_faces, 0
@@ -137,7 +137,8 @@ def scene_parts(
             defects.append(_count(crowded, "non-manifold edge"))
         if turned:
             defects.append(_count(turned, "edge") + " between faces of opposite orientation")
-        if outside_in:
+        # How loose faces are turned says nothing: there is no inside yet.
+        if outside_in and not (brep and of_surfaces):
             pieces = _count(outside_in, "closed piece") + " turned inside out"
             defects.append("the solid is turned inside out" if brep else pieces)
         if i in crossed:

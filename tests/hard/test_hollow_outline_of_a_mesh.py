@@ -1,8 +1,8 @@
 """A torus as a mesh, on the hollow side of which the edges of the contour run on beyond one another.
 
-In the hole of a torus, as at the neck of a vase, each edge of the mesh's contour reaches beyond the place where the next
-one crosses it, and short edges behind lead back. Drawn as they are, these spikes are a millimetre long or more, and what
-is one line in the B-rep's drawing comes in dozens. The B-rep's drawing is the oracle.
+In the hole of a torus, as at the neck of a vase, each edge of the mesh's contour reaches beyond the place where the
+next one crosses it, and short edges behind lead back. Drawn as they are, these spikes are a millimetre long or more,
+and what is one line in the B-rep's drawing comes in dozens. The B-rep's drawing is the oracle.
 """
 
 from __future__ import annotations

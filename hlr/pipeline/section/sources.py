@@ -18,6 +18,7 @@ from hlr.source.cad.kernel_cut import BARE, SAME, KernelCut, NotHereError
 from hlr.source.cad.parts import Leaf, Part
 from hlr.source.mesh.mesh_source import MeshSource
 from hlr.source.model import Source
+from hlr.source.stepped import Stepped
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,24 +209,33 @@ class _PrototypeCutter:
         An error where OpenCASCADE cannot cut it.
         """
         from hlr.source.cad.closing import as_solid
-        from hlr.source.cad.half_space import cut_at, cut_away
 
         planes = self._planes.before(part.transform)
         ends = np.concatenate([planes.levels, planes.steps]) / self._size
         turned = [*planes.normal, *(planes.along if len(planes.steps) else ())]
         key = part.prototype, *np.round([*turned, *ends], SAME).tolist()
         if key not in self._found:
+            whole = self._shapes[part.prototype]
             if part.prototype not in self._solids:
-                self._solids[part.prototype] = as_solid(self._shapes[part.prototype], self._size)
-            leaf = Leaf(self._solids[part.prototype], part.name)
-            try:
-                at = planes.levels[0] * planes.normal
-                left = cut_at([leaf], planes, at) if len(planes.steps) else cut_away([leaf], at, planes.normal)
-            except UncuttableError as error:
-                self._found[key] = error
-            else:
-                self._found[key] = (left[0].shape, not left[0].shape.IsSame(leaf.shape)) if left else (None, False)
+                self._solids[part.prototype] = as_solid(whole, self._size)
+            solid = self._solids[part.prototype]
+            self._found[key] = self._left_of(solid, planes, part.name)
+            if isinstance(self._found[key], UncuttableError) and not solid.IsSame(whole):
+                # Faces that close a body may not be sound as one: they are cut open.
+                self._found[key] = self._left_of(whole, planes, part.name)
         return self._found[key]
+
+    @staticmethod
+    def _left_of(shape: Any, planes: Stepped, name: str) -> tuple[Any | None, bool] | UncuttableError:
+        from hlr.source.cad.half_space import cut_at, cut_away
+
+        leaf = Leaf(shape, name)
+        try:
+            at = planes.levels[0] * planes.normal
+            left = cut_at([leaf], planes, at) if len(planes.steps) else cut_away([leaf], at, planes.normal)
+        except UncuttableError as error:
+            return error
+        return (left[0].shape, not left[0].shape.IsSame(shape)) if left else (None, False)
 
 
 def _cut_meshes(source: MeshSource, planes: Planes, whole: list[str], crossed: list[str]) -> CutSource | None:

@@ -41,10 +41,24 @@ def _sewn_solids(shape: Any, near: float) -> list[Any]:
     sewing.Add(shape)
     sewing.Perform()
     sewn = sewing.SewedShape()
-    if sewn.IsNull() or sewing.NbFreeEdges() or sub_shapes(sewn, Kind.TopAbs_FACE, Kind.TopAbs_SHELL):
+    if sewn.IsNull() or sewing.NbFreeEdges():
         return []
-    shells = sub_shapes(sewn, Kind.TopAbs_SHELL)
+    shells = [TopoDS.Shell(shell) for shell in sub_shapes(sewn, Kind.TopAbs_SHELL)]
     if not all(shell.Closed() for shell in shells):
         return []
-    solids = [BRepBuilderAPI_MakeSolid(TopoDS.Shell(shell)).Solid() for shell in shells]
+    # A whole sphere or torus is one face, which sewing puts into no shell.
+    shells += map(_shell_of, sub_shapes(sewn, Kind.TopAbs_FACE, Kind.TopAbs_SHELL))
+    solids = [BRepBuilderAPI_MakeSolid(shell).Solid() for shell in shells]
     return [solid.Reversed() if is_inside_out(solid) else solid for solid in solids]
+
+
+def _shell_of(face: Any) -> Any:
+    """A closed shell of one face."""
+    from OCP.BRep import BRep_Builder
+    from OCP.TopoDS import TopoDS_Shell
+
+    shell, builder = TopoDS_Shell(), BRep_Builder()
+    builder.MakeShell(shell)
+    builder.Add(shell, face)
+    shell.Closed(True)
+    return shell

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError
@@ -36,7 +38,7 @@ def open_iges(path: Path) -> BrepSource:
     if head[72:73] != b"B" and not _has_last_record(path):
         text = f"{path.name} is cut short (its last record, T, is missing): some of it may be missing; export it again."
         notes.append(Note("cut-short", text))
-    return read_document(path, "iges", IGESCAFControl_Reader(), notes, repair_leaf=_sew_faces)
+    return read_document(path, "iges", IGESCAFControl_Reader(), notes, repair_leaf=_repaired)
 
 
 def _has_last_record(path: Path) -> bool:
@@ -47,6 +49,28 @@ def _has_last_record(path: Path) -> bool:
 
 
 _LAST_RECORD = re.compile(rb"T[ 0]*1[\s\x00\x1a]*$")
+
+
+def _repaired(leaf: Leaf) -> Leaf:
+    return _without_mirrors(_sew_faces(leaf))
+
+
+def _without_mirrors(leaf: Leaf) -> Leaf:
+    """The leaf with faces of their own where some are placed as mirror images.
+
+    OpenCASCADE takes such a face for turned the other way than the faces beside it, so that the body is no solid.
+    """
+    from OCP.BRepTools import BRepTools_PurgeLocations
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+    shape = with_location(leaf.shape, None)
+    faces = sub_shapes(shape, Kind.TopAbs_FACE)
+    if not any(face.Location().Transformation().IsNegative() for face in faces):
+        return leaf
+    purge = BRepTools_PurgeLocations()
+    if not purge.Perform(shape):
+        return leaf
+    return _with_shape(leaf, purge.GetResult(), faces, purge.ModifiedShape)
 
 
 def _sew_faces(leaf: Leaf) -> Leaf:
@@ -61,7 +85,7 @@ def _sew_faces(leaf: Leaf) -> Leaf:
 
     shape = with_location(leaf.shape, None)
     faces = sub_shapes(shape, Kind.TopAbs_FACE)
-    if len(faces) < 2 or sub_shapes(shape, Kind.TopAbs_SHELL):
+    if not faces or sub_shapes(shape, Kind.TopAbs_SHELL):
         return leaf
     box = Bnd_Box()
     BRepBndLib.Add_s(shape, box)
@@ -72,13 +96,22 @@ def _sew_faces(leaf: Leaf) -> Leaf:
     sewn = sewing.SewedShape()
     if sewn is None or sewn.IsNull() or len(sub_shapes(sewn, Kind.TopAbs_FACE)) != len(faces):
         return leaf
+
+    def made_of(face: Any) -> Any:
+        return sewing.ModifiedSubShape(face) if sewing.IsModifiedSubShape(face) else face
+
+    return _with_shape(leaf, sewn, faces, made_of)
+
+
+def _with_shape(leaf: Leaf, shape: Any, faces: Sequence[Any], made_of: Callable[[Any], Any]) -> Leaf:
+    """The leaf with another shape. Each face that was made of one of its `faces` has the colour of that."""
     colors, opacities = {}, {}
     for face in faces:
         key = face.TShape()
         if key in leaf.colors:
-            sewn_face = sewing.ModifiedSubShape(face) if sewing.IsModifiedSubShape(face) else face
-            colors[sewn_face.TShape()] = leaf.colors[key]
+            made = made_of(face).TShape()
+            colors[made] = leaf.colors[key]
             if key in leaf.opacities:
-                opacities[sewn_face.TShape()] = leaf.opacities[key]
-    placed = sewn.Moved(leaf.shape.Location(), False)
+                opacities[made] = leaf.opacities[key]
+    placed = shape.Moved(leaf.shape.Location(), False)
     return Leaf(placed, leaf.name, leaf.color, colors, leaf.opacity, opacities, leaf.above)

@@ -4,8 +4,9 @@ use rayon::prelude::*;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::faces::Node;
-use crate::format::{IDENTITY, Matrix, moved};
+use crate::format::{IDENTITY, Matrix, determinant, moved};
 use crate::model::Model;
+use crate::outward::inward;
 use crate::part_topology::{PartEdge, PartTopology};
 use crate::shapes::Vertex;
 use crate::tessellate::Tessellation;
@@ -168,11 +169,27 @@ fn part(model: &Model, meshed: &Tessellation, number: usize) -> PartMesh {
         }
         out.face_shape.push(face.face as i32);
         out.face_place.push(face.place.unwrap_or(IDENTITY));
-        out.face_reversed.push(face.reversed);
+        // Its surface is placed as its place says, whatever the faces beside it count as.
+        let image = face.place.is_some_and(|place| determinant(&place) < 0.0);
+        out.face_reversed.push(face.reversed != (face.mirrored != image));
+    }
+    if model.parts[number].solids == 0 {
+        turn_outward(model, topology, &corners.points, &mut out);
     }
     lines(model, meshed, number, &corners, &mut out);
     compress(corners.points, &mut out);
     out
+}
+
+fn turn_outward(model: &Model, topology: &PartTopology, points: &[[f64; 3]], out: &mut PartMesh) {
+    let inward = inward(topology, &model.edges, points, &out.triangles, &out.triangle_face);
+    for ((t, corner), &face) in out.triangles.iter_mut().zip(&mut out.corner).zip(&out.triangle_face) {
+        if inward[face as usize] {
+            t.swap(1, 2);
+            corner.swap(1, 2);
+        }
+    }
+    out.face_reversed.iter_mut().zip(inward).for_each(|(reversed, inward)| *reversed ^= inward);
 }
 
 fn lines(model: &Model, meshed: &Tessellation, number: usize, corners: &Corners, out: &mut PartMesh) {

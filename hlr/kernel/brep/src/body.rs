@@ -138,7 +138,7 @@ pub fn model_of(bodies: Vec<Body>, classified: bool) -> Model {
         let mut part = Part { solids: body.solids, ..Part::default() };
         part.edges.extend((0..body.edges.len()).map(|i| PlacedEdge { edge: (edge + i) as u32, location: 0 }));
         for (i, mut own) in (0..).zip(body.faces) {
-            part.faces.push(PlacedFace { face: face as u32 + i, location: 0, reversed: own.reversed });
+            part.faces.push(PlacedFace { face: face as u32 + i, location: 0, reversed: own.reversed, mirrored: false });
             for used in own.face.wires.iter_mut().flatten() {
                 part.uses.push(PlacedUse { edge: used.edge, face: i, orientation: used.orientation });
                 used.edge += edge as u32;

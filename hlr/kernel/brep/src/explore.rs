@@ -4,14 +4,16 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::format::{Damaged, Dump, Kind, MOST_FACTORS, Orientation, Sub};
+use crate::format::{Damaged, Dump, Kind, MOST_FACTORS, Orientation, Sub, determinant};
 
-/// A face of a part: number of the underlying face, location, and orientation.
+/// A face of a part: number of the underlying face, location, and orientation; whether its location makes it a mirror
+/// image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlacedFace {
     pub face: u32,
     pub location: u32,
     pub reversed: bool,
+    pub mirrored: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,7 +115,8 @@ pub fn explore(dump: &mut Dump, parts: &[Vec<Sub>]) -> Result<Explored, Damaged>
                 Kind::Face { .. } => {
                     let number = numbered(&mut faces, &mut found.faces, item.shape);
                     let reversed = item.orientation == Orientation::Reversed;
-                    let placed = PlacedFace { face: number, location: item.location, reversed };
+                    let mirrored = item.location != 0 && determinant(&dump.locations.matrix(item.location)) < 0.0;
+                    let placed = PlacedFace { face: number, location: item.location, reversed, mirrored };
                     face = Some(*placed_faces.entry(placed_key(number, item.location)).or_insert_with(|| {
                         part.faces.push(placed);
                         part.faces.len() as u32 - 1

@@ -2,6 +2,7 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+mod agreed;
 pub mod assemble;
 pub mod body;
 pub mod bounds;
@@ -24,6 +25,7 @@ pub mod geometry;
 pub mod mesh;
 pub mod model;
 pub mod one_sphere;
+mod outward;
 pub mod part_topology;
 pub mod reach;
 pub mod sets;

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::agreed::turn_to_agree;
 use crate::classes::{Classes, classes};
 use crate::copies::mark_copies;
 use crate::explore::{self, Part};
@@ -47,7 +48,8 @@ impl Model {
     /// # Errors
     /// The parts contain too many shapes.
     pub fn of(mut dump: Dump, parts: &[Vec<Sub>]) -> Result<Model, Damaged> {
-        let found = explore::explore(&mut dump, parts)?;
+        let mut found = explore::explore(&mut dump, parts)?;
+        found.parts.par_iter_mut().for_each(turn_to_agree);
         let mut locations = std::mem::replace(&mut dump.locations, Locations::none());
         let mut edges = made(
             &found.edges,

@@ -3,7 +3,7 @@
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::explore::Part;
-use crate::format::{Locations, Matrix, determinant};
+use crate::format::{Locations, Matrix};
 use crate::shapes::{Edge, Face, Vertex};
 
 pub struct PartTopology {
@@ -105,7 +105,7 @@ pub fn part_topology(
                 face: placed.face,
                 place: matrix,
                 reversed: placed.reversed,
-                mirrored: matrix.is_some_and(|m| determinant(&m) < 0.0),
+                mirrored: placed.mirrored,
                 uses,
                 locations: within,
             }

@@ -1,0 +1,86 @@
+"""Faces without a solid, as IGES files and compounds have them: each is turned as its surface happens to be.
+
+Where two of them go on smoothly, and one looks outward and the other inward, their edge would be a crease. In IGES
+files some of them are placed as mirror images besides, and a whole sphere is a face by itself. The drawing of the solid
+is the oracle.
+"""
+
+from __future__ import annotations
+
+import cadquery as cq
+import numpy as np
+import pytest
+from hard.brep import same
+from OCP.IGESControl import IGESControl_Writer
+from OCP.TopAbs import TopAbs_Orientation
+
+import hlr
+from support.at_size import AT_SIZE
+from support.expected import differences, ink
+
+
+def shelled() -> cq.Shape:
+    """A box with round corners and a thin wall: its faces inside look the other way than the surfaces they lie on."""
+    return cq.Workplane().box(40, 30, 20).edges("|Z").fillet(5).faces("<Z").shell(-2).val()
+
+
+def ring() -> cq.Shape:
+    return cq.Workplane().circle(15).circle(8).extrude(20).faces(">Z").edges().fillet(2).val()
+
+
+def ball() -> cq.Shape:
+    return cq.Workplane().sphere(10).val().moved(cq.Location(cq.Vector(35, 0, 10)))
+
+
+def both() -> cq.Shape:
+    return cq.Compound.makeCompound([ring(), ball()])
+
+
+MODELS = {"shelled": shelled, "ring": ring, "ball": ball, "both": both}
+
+
+def as_faces(shape: cq.Shape, folder) -> str:
+    """The shape in an IGES file of trimmed surfaces."""
+    path = str(folder / "faces.igs")
+    writer = IGESControl_Writer("MM", 0)
+    writer.AddShape(shape.wrapped)
+    writer.ComputeModel()
+    assert writer.Write(path)
+    return path
+
+
+@pytest.mark.parametrize("view", ["front", "iso", (1.0, 2.0, -0.5)])
+@pytest.mark.parametrize("name", MODELS)
+def test_an_iges_file_is_drawn_as_the_solid(tmp_path, name, view):
+    shape = MODELS[name]()
+    drawing = hlr.draw(as_faces(shape, tmp_path), view, **AT_SIZE)
+    assert drawing.notes == ()
+    same(drawing, hlr.draw(shape, view, **AT_SIZE))
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_it_is_cut_and_hatched_as_the_solid(tmp_path, name):
+    shape = MODELS[name]()
+    found = [hlr.draw(each, "front", section=True, **AT_SIZE) for each in (as_faces(shape, tmp_path), shape)]
+    assert found[0].notes == found[1].notes == ()
+    drawn, wanted = (ink(drawing, ["hatch"]) for drawing in found)
+    assert not differences(wanted, drawn, 2.0 * max(drawing.accuracy.used for drawing in found))
+    # The file has one part where the compound has two, so their hatches differ, but not where they are.
+    across = [np.concatenate([line.points3[:, 0] for line in d.lines if line.kind == "hatch"]) for d in found]
+    counts = [np.histogram(each, bins=np.arange(-27, 50, 5))[0] > 0 for each in across]
+    assert counts[0].tolist() == counts[1].tolist()
+    assert counts[0].any()
+
+
+@pytest.mark.parametrize("view", ["front", "iso", (1.0, 2.0, -0.5)])
+@pytest.mark.parametrize("name", MODELS)
+def test_loose_faces_as_their_surfaces_look_are_drawn_as_the_solid(name, view):
+    shape = MODELS[name]()
+    forward = [cq.Face(face.wrapped.Oriented(TopAbs_Orientation.TopAbs_FORWARD)) for face in shape.Faces()]
+    drawing = hlr.draw(cq.Compound.makeCompound(forward), view, **AT_SIZE)
+    assert drawing.notes == ()
+    same(drawing, hlr.draw(shape, view, **AT_SIZE))
+
+
+def test_picture(picture, tmp_path):
+    picture(hlr.draw(as_faces(shelled(), tmp_path), "front", section=True, **AT_SIZE))
