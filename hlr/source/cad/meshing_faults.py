@@ -15,6 +15,10 @@ MAX_LISTED = 5
 """Faces that one note lists by number."""
 
 
+FAR = 1e6
+"""Millimetres: beyond any model, so that the number tells nothing. Some surfaces run away to infinity at a corner."""
+
+
 @dataclass(slots=True)
 class MeshingFaults:
     """Numbers of underlying faces.
@@ -72,12 +76,12 @@ class MeshingFaults:
         if torn:
             one = len(torn) == 1
             has = "has a surface that folds over itself or jumps" if one else "have surfaces that fold or jump"
-            what = f"{has}, and may be {_farthest(self.torn, face_shape[torn])} mm off there"
+            what = f"{has}, and may be {_off(self.torn, face_shape[torn])} there"
             notes.append(Note("surfaces-torn", f"{of.format(len(torn))} {what} ({_listed(torn)})."))
         if unfinished:
             takes = "takes" if len(unfinished) == 1 else "take"
-            far = _farthest(self.unfinished, face_shape[unfinished])
-            what = f"{takes} too much work to be meshed as finely as needed, and may be {far} mm off"
+            far = _off(self.unfinished, face_shape[unfinished])
+            what = f"{takes} too much work to be meshed as finely as needed, and may be {far}"
             notes.append(Note("faces-too-coarse", f"{of.format(len(unfinished))} {what} ({_listed(unfinished)})."))
         return notes
 
@@ -100,9 +104,10 @@ def _placed(numbers: list[int], face_shape: Ints) -> list[int]:
     return np.flatnonzero(np.isin(face_shape, numbers)).tolist() if numbers else []
 
 
-def _farthest(off: dict[int, float], numbers: Ints) -> str:
-    """How far the farthest of some underlying faces is off."""
-    return typed(max(off[number] for number in set(numbers.tolist())), 2)
+def _off(off: dict[int, float], numbers: Ints) -> str:
+    """How far the farthest of some underlying faces is off, such as "0.12 mm off"."""
+    farthest = max(off[number] for number in set(numbers.tolist()))
+    return "far off" if farthest > FAR else f"{typed(farthest, 2)} mm off"
 
 
 def _listed(faces: list[int]) -> str:
