@@ -12,8 +12,12 @@ use crate::format::Orientation;
 type Neighbour = (u32, bool);
 
 /// Turns the fewer faces of each set that hangs together. A set in which no choice lets all agree stays as it is, as a
-/// Moebius strip. All faces of a set count as mirrored, or none, as most of them are.
+/// Moebius strip. All faces of a set count as mirrored, or none, as most of them are. In a solid a face that looks the
+/// other way is a defect, which is told.
 pub fn turn_to_agree(part: &mut Part) {
+    if part.solids > 0 {
+        return;
+    }
     let pairs = pairs(part);
     let mirrored = part.faces.iter().filter(|face| face.mirrored).count();
     let mixed = mirrored > 0 && mirrored < part.faces.len();
@@ -132,6 +136,8 @@ mod tests {
         assert_eq!(turned(row(&[true, false], None)), [true; 2], "as the first, where there are as many");
         assert_eq!(turned(row(&[true, true, true], None)), [true; 3]);
         assert_eq!(turned(row(&[false, true, false], Some(false))), [false; 3]);
+        let solid = Part { solids: 1, ..row(&[false, true, false], Some(false)) };
+        assert_eq!(turned(solid), [false, true, false]);
     }
 
     #[test]
