@@ -15,6 +15,7 @@ from OCP.IGESControl import IGESControl_Writer
 from OCP.TopAbs import TopAbs_Orientation
 
 import hlr
+from hlr.source.cad.iges import open_iges
 from support.at_size import AT_SIZE
 from support.expected import differences, ink
 
@@ -80,6 +81,34 @@ def test_loose_faces_as_their_surfaces_look_are_drawn_as_the_solid(name, view):
     drawing = hlr.draw(cq.Compound.makeCompound(forward), view, **AT_SIZE)
     assert drawing.notes == ()
     same(drawing, hlr.draw(shape, view, **AT_SIZE))
+
+
+def test_faces_that_are_rebuilt_keep_their_colours(tmp_path):
+    from OCP.IGESCAFControl import IGESCAFControl_Writer
+    from OCP.Quantity import Quantity_Color, Quantity_TypeOfColor
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDocStd import TDocStd_Document
+    from OCP.XCAFApp import XCAFApp_Application
+    from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
+
+    document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
+    XCAFApp_Application.GetApplication_s().InitDocument(document)
+    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    colors = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
+    shape = ring()
+    whole = shapes.AddShape(shape.wrapped, False)
+    for i, face in enumerate(shape.Faces()):
+        color = Quantity_Color(0.1 * (i + 1), 0.2, 0.9, Quantity_TypeOfColor.Quantity_TOC_sRGB)
+        label = shapes.AddSubShape(whole, face.wrapped)
+        colors.SetColor(label, color, XCAFDoc_ColorType.XCAFDoc_ColorSurf)
+    writer = IGESCAFControl_Writer()
+    writer.SetColorMode(True)
+    writer.Transfer(document)
+    writer.ComputeModel()
+    path = tmp_path / "painted.igs"
+    assert writer.Write(str(path))
+    (look,) = open_iges(path).appearances().values()
+    assert [round(10 * look.faces[i][0]) for i in range(6)] == [1, 2, 3, 4, 5, 6]
 
 
 def test_picture(picture, tmp_path):

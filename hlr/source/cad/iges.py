@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -12,6 +13,7 @@ from hlr.errors import SourceError
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.occt_import import load_occt
 from hlr.source.cad.parts import Leaf
+from hlr.source.cad.prototypes import binary_dump
 from hlr.source.cad.shapes import sub_shapes, with_location
 from hlr.source.cad.xcaf import read_document
 
@@ -52,7 +54,8 @@ _LAST_RECORD = re.compile(rb"T[ 0]*1[\s\x00\x1a]*$")
 
 
 def _repaired(leaf: Leaf) -> Leaf:
-    return _without_mirrors(_sew_faces(leaf))
+    # Sewing joins the edges of copies as well.
+    return _sew_faces(_without_mirrors(leaf))
 
 
 def _without_mirrors(leaf: Leaf) -> Leaf:
@@ -65,12 +68,26 @@ def _without_mirrors(leaf: Leaf) -> Leaf:
 
     shape = with_location(leaf.shape, None)
     faces = sub_shapes(shape, Kind.TopAbs_FACE)
-    if not any(face.Location().Transformation().IsNegative() for face in faces):
+    if not any(face.Location().Transformation().VectorialPart().Determinant() < 0.0 for face in faces):
         return leaf
+    # The reader makes matrices that mirror and do not say so; read once more, they do.
+    again = _read_again(shape)
     purge = BRepTools_PurgeLocations()
-    if not purge.Perform(shape):
+    if not purge.Perform(again):
         return leaf
-    return _with_shape(leaf, purge.GetResult(), faces, purge.ModifiedShape)
+    copies = [face.TShape() for face in faces], sub_shapes(again, Kind.TopAbs_FACE)
+    copy_of = dict(zip(*copies, strict=True))
+    return _with_shape(leaf, purge.GetResult(), faces, lambda face: purge.ModifiedShape(copy_of[face.TShape()]))
+
+
+def _read_again(shape: Any) -> Any:
+    """The shape as OpenCASCADE writes and reads it."""
+    from OCP.BinTools import BinTools
+    from OCP.TopoDS import TopoDS_Iterator, TopoDS_Shape
+
+    whole = TopoDS_Shape()
+    BinTools.Read_s(whole, io.BytesIO(binary_dump([shape])))
+    return TopoDS_Iterator(whole).Value()
 
 
 def _sew_faces(leaf: Leaf) -> Leaf:
