@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import math
 import re
+from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache, lru_cache
 
 MARGIN = 10.0
 """Millimetres that stay empty on each side of a sheet."""
@@ -66,8 +67,11 @@ def papers(page: str | Sequence[float]) -> tuple[Paper, ...]:
 
     page: "A3", "A3-landscape", "letter-portrait", "300x200" or (300, 200). Raises ValueError, with what is allowed.
     """
-    if not isinstance(page, str):
-        return (_sized(page),)
+    return _named(page) if isinstance(page, str) else (_sized(page),)
+
+
+@lru_cache(maxsize=32)
+def _named(page: str) -> tuple[Paper, ...]:
     words = re.split(r"[\s_-]+", page.strip().lower())
     sheet = SHEETS.get(words[0])
     if sheet is None:
@@ -103,10 +107,8 @@ def _sized(sides: Sequence[float]) -> Paper:
 
 def standard_scale(most: float) -> float:
     """The largest standard scale that is no larger than `most`, a positive number."""
-    step = len(STEPS) * math.floor(math.log10(most)) - 1
-    while _scale(step + 1) <= most:
-        step += 1
-    return _scale(step)
+    scales = _standard_scales()
+    return scales[max(0, bisect_right(scales, most) - 1)]
 
 
 def standard_scale_from(least: float) -> float:
@@ -114,8 +116,8 @@ def standard_scale_from(least: float) -> float:
     return 1.0 / standard_scale(1.0 / least)
 
 
-def _scale(step: int) -> float:
-    """The standard scales in a row: step 0 is 1:1, 1 is 2:1, -1 is 1:2."""
-    power, which = divmod(abs(step), len(STEPS))
-    size = float(STEPS[which] * 10**power)
-    return size if step >= 0 else 1.0 / size
+@cache
+def _standard_scales() -> list[float]:
+    """All that numbers of 64 bits can express, ascending."""
+    larger = [float(step * 10**power) for power in range(308) for step in STEPS]
+    return [*(1.0 / scale for scale in reversed(larger[1:])), *larger]
