@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from hlr.source.cad.shape_measures import is_inside_out
 
 SEWN = 1e-6
@@ -43,13 +45,79 @@ def _sewn_solids(shape: Any, near: float) -> list[Any]:
     sewn = sewing.SewedShape()
     if sewn.IsNull() or sewing.NbFreeEdges():
         return []
-    shells = [TopoDS.Shell(shell) for shell in sub_shapes(sewn, Kind.TopAbs_SHELL)]
+    shells = [_oriented(TopoDS.Shell(shell)) for shell in sub_shapes(sewn, Kind.TopAbs_SHELL)]
     if not all(shell.Closed() for shell in shells):
         return []
     # A whole sphere or torus is one face, which sewing puts into no shell.
     shells += map(_shell_of, sub_shapes(sewn, Kind.TopAbs_FACE, Kind.TopAbs_SHELL))
     solids = [BRepBuilderAPI_MakeSolid(shell).Solid() for shell in shells]
-    return [solid.Reversed() if is_inside_out(solid) else solid for solid in solids]
+    solids = [solid.Reversed() if is_inside_out(solid) else solid for solid in solids]
+    return _with_cavities(solids, near)
+
+
+def _with_cavities(solids: list[Any], near: float) -> list[Any]:
+    """The same solids, of one shell each, but those that lie within others as their cavities.
+
+    Of several within one another each second one is a cavity of the one around it.
+    """
+    from OCP.BRep import BRep_Builder
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+    from hlr.source.cad.shapes import sub_shapes
+
+    boxes = np.array([_box(solid) for solid in solids])
+    around = []
+    for i, (own, (low, high)) in enumerate(zip(solids, boxes, strict=True)):
+        beyond = (boxes[:, 0] <= low).all(axis=1) & (boxes[:, 1] >= high).all(axis=1)
+        around.append([k for k in np.flatnonzero(beyond).tolist() if k != i and _within(own, solids[k], near)])
+    builder, found = BRep_Builder(), {}
+    for i, solid in enumerate(solids):
+        if len(around[i]) % 2 == 0:
+            found[i] = solid.EmptyCopied()
+            for shell in sub_shapes(solid, Kind.TopAbs_SHELL):
+                builder.Add(found[i], shell)
+    for i, solid in enumerate(solids):
+        if len(around[i]) % 2 == 1:
+            nearest = max(around[i], key=lambda k: len(around[k]))
+            for shell in sub_shapes(solid, Kind.TopAbs_SHELL):
+                builder.Add(found[nearest], shell.Reversed())
+    return list(found.values())
+
+
+def _box(solid: Any) -> list[tuple[float, float, float]]:
+    """Its lowest and its highest corner."""
+    from OCP.Bnd import Bnd_Box
+    from OCP.BRepBndLib import BRepBndLib
+
+    box = Bnd_Box()
+    BRepBndLib.Add_s(solid, box)
+    return [(corner.X(), corner.Y(), corner.Z()) for corner in (box.CornerMin(), box.CornerMax())]
+
+
+def _within(inner: Any, outer: Any, near: float) -> bool:
+    """Whether a solid lies within another, which it does not cross."""
+    from OCP.BRep import BRep_Tool
+    from OCP.BRepClass3d import BRepClass3d_SolidClassifier
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+    from OCP.TopAbs import TopAbs_State
+    from OCP.TopoDS import TopoDS
+
+    from hlr.source.cad.shapes import sub_shapes
+
+    vertex = TopoDS.Vertex(sub_shapes(inner, Kind.TopAbs_VERTEX)[0])
+    classifier = BRepClass3d_SolidClassifier(outer, BRep_Tool.Pnt_s(vertex), near)
+    return bool(classifier.State() == TopAbs_State.TopAbs_IN)
+
+
+def _oriented(shell: Any) -> Any:
+    """The shell with faces that look the same way as their neighbours; sewing leaves some as they were."""
+    if shell.Closed():
+        return shell
+    from OCP.ShapeFix import ShapeFix_Shell
+
+    fix = ShapeFix_Shell()
+    fix.FixFaceOrientation(shell)
+    return fix.Shell()
 
 
 def _shell_of(face: Any) -> Any:

@@ -9,9 +9,10 @@ use crate::format::{Locations, SurfaceRecord, moved};
 use crate::geometry::curve::Curve;
 use crate::geometry::moved_surface;
 use crate::geometry::surface::Surface;
-use crate::geometry::vector::{length, sub};
+use crate::geometry::vector::{Vector, length, sub};
 use crate::model::Model;
 use crate::part_topology::part_topology;
+use crate::sets::Sets;
 use crate::shapes::{Edge, Face, Use, Vertex};
 
 /// A face of a body. `of`: its number in the part that it comes from; None: a cut has made it.
@@ -113,20 +114,44 @@ impl Body {
         !self.faces.is_empty() && sums.iter().zip(&self.edges).all(|(sum, edge)| *sum == 0 || edge.degenerate)
     }
 
-    /// The diagonal of the box around the edges' ends and some points between them.
-    pub fn size(&self) -> f64 {
-        let [mut low, mut high] = EMPTY;
-        for edge in &self.edges {
-            let [first, last] = edge.range;
-            let between = |quarter: f64| edge.curve.as_ref().map(|curve| curve.point(first + quarter * (last - first)));
-            let points = edge.end_points.into_iter().chain([0.25, 0.5, 0.75].map(between));
-            for p in points.flatten() {
-                for k in 0..3 {
-                    (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
-                }
+    /// Whether some of its faces, which hang together, lie within the box of others: they may be a cavity of these, and
+    /// without a solid nothing says so.
+    pub fn is_nested(&self) -> bool {
+        let mut sets = Sets::new(self.faces.len());
+        let mut first = vec![None; self.edges.len()];
+        for (f, face) in self.faces.iter().enumerate() {
+            for used in face.face.wires.iter().flatten() {
+                sets.unite(*first[used.edge as usize].get_or_insert(f), f);
             }
         }
-        length(&sub(&high, &low))
+        let mut boxes = vec![EMPTY; self.faces.len()];
+        for (edge, f) in self.edges.iter().zip(&first).filter_map(|(edge, f)| Some((edge, (*f)?))) {
+            let set = sets.first(f);
+            edge_points(edge).for_each(|p| grow(&mut boxes[set], &p));
+        }
+        let whole: Vec<[Vector; 2]> = (0..boxes.len()).filter(|&f| sets.first(f) == f).map(|f| boxes[f]).collect();
+        let within = |a: &[Vector; 2], b: &[Vector; 2]| (0..3).all(|k| a[0][k] >= b[0][k] && a[1][k] <= b[1][k]);
+        whole.iter().enumerate().any(|(i, a)| whole.iter().enumerate().any(|(j, b)| i != j && within(a, b)))
+    }
+
+    /// The diagonal of the box around the edges' ends and some points between them.
+    pub fn size(&self) -> f64 {
+        let mut all = EMPTY;
+        self.edges.iter().flat_map(edge_points).for_each(|p| grow(&mut all, &p));
+        length(&sub(&all[1], &all[0]))
+    }
+}
+
+/// The ends of an edge, and some points between them.
+fn edge_points(edge: &Edge) -> impl Iterator<Item = Vector> {
+    let [first, last] = edge.range;
+    let between = move |quarter: f64| edge.curve.as_ref().map(|curve| curve.point(first + quarter * (last - first)));
+    edge.end_points.into_iter().chain([0.25, 0.5, 0.75].map(between)).flatten()
+}
+
+fn grow([low, high]: &mut [Vector; 2], p: &Vector) {
+    for k in 0..3 {
+        (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
     }
 }
 

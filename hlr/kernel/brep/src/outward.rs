@@ -16,8 +16,11 @@ pub fn inward(
     triangle_face: &[i32],
 ) -> Vec<bool> {
     let mut sets = Sets::new(part.faces.len());
+    // Bodies that have but an edge in common, of three faces or more, are looked at one by one.
     for edge in &part.edges {
-        edge.faces.windows(2).for_each(|two| sets.unite(two[0] as usize, two[1] as usize));
+        if let [one, two] = edge.faces[..] {
+            sets.unite(one as usize, two as usize);
+        }
     }
     let set_of: Vec<usize> = (0..part.faces.len()).map(|face| sets.first(face)).collect();
     let mut open = vec![false; part.faces.len()];

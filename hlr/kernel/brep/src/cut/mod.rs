@@ -82,6 +82,9 @@ fn try_cut(
     if !body.is_closed() {
         return Err("it is no closed body");
     }
+    if body.solids == 0 && body.is_nested() {
+        return Err("one body of its faces lies within another");
+    }
     let deflection = COARSE * body.size();
     let watch = Watch { stopped, done: &AtomicUsize::new(0) };
     let cornered = with_corners(&body, plane, CUT_BULGE * deflection);

@@ -84,22 +84,30 @@ impl Chain<'_> {
     /// Of a loop between two places, which are one behind the other. Of what is seen the nearer place stands for both:
     /// nothing hides it. Where two edges cross, the one begins to hide the other: `beside` (mm) is looked at of each.
     fn joint(&self, from: Place, to: Place, beside: f64) -> Joint {
-        let share = |place: Place| {
-            let (a, b) = self.ends(place.0);
-            beside / distance(&self.geometry.flat(a), &self.geometry.flat(b))
-        };
-        let before = self.is_seen(from.0, from.1 - share(from), from.1);
-        let after = self.is_seen(to.0, to.1, to.1 + share(to));
+        let share = |place: Place| beside / self.length(place.0);
+        let before = self.seen(from.0, from.1 - share(from), from.1) > 0.0;
+        let after = self.seen(to.0, to.1, to.1 + share(to)) > 0.0;
+        let count = self.edges.len();
+        let inner = (1..(to.0 + count - from.0) % count).map(|k| (from.0 + k) % count);
+        let ends = self.seen(from.0, from.1, 1.0) + self.seen(to.0, 0.0, to.1);
+        let of_loop = || ends + inner.map(|k| self.seen(k, 0.0, 1.0)).sum::<f64>();
         let depth = |place: Place| self.geometry.camera.view().depth(&self.at(place).1);
-        let place = if (depth(from) <= depth(to)) == (before || after) { from } else { to };
-        Joint { goes_on: before == after, place }
+        let place = if (depth(from) <= depth(to)) == before { from } else { to };
+        Joint { fits: before == after && (before || of_loop() <= beside), place }
     }
 
-    /// Whether any of edge k is seen between two parameters of the walk.
-    fn is_seen(&self, k: usize, from: f64, to: f64) -> bool {
+    /// How much of edge k is seen between two parameters of the walk, in millimetres on paper.
+    fn seen(&self, k: usize, from: f64, to: f64) -> f64 {
         let (low, high) = if self.reversed[k] { (1.0 - to, 1.0 - from) } else { (from, to) };
-        let there = |piece: &&Piece| piece.start < high && piece.end > low;
-        self.geometry.pieces_of(self.edges[k]).iter().filter(there).any(|piece| piece.state != State::Hidden)
+        let pieces = self.geometry.pieces_of(self.edges[k]).iter().filter(|piece| piece.state != State::Hidden);
+        let share: f64 = pieces.map(|piece| (piece.end.min(high) - piece.start.max(low)).max(0.0)).sum();
+        share * self.length(k)
+    }
+
+    /// Of edge k, in millimetres on paper.
+    fn length(&self, k: usize) -> f64 {
+        let (a, b) = self.ends(k);
+        distance(&self.geometry.flat(a), &self.geometry.flat(b))
     }
 
     pub(super) fn ends(&self, k: usize) -> (usize, usize) {

@@ -33,8 +33,8 @@ pub type Place = (usize, f64);
 
 /// Where a loop is cut off.
 pub struct Joint {
-    /// Whether what comes after it is seen, or hidden, as what comes before.
-    pub goes_on: bool,
+    /// Whether nothing that is seen is lost: what comes before it and after it is seen, or it is hidden like these.
+    pub fits: bool,
     /// The place that stands for both ends of the loop.
     pub place: Place,
 }
@@ -48,10 +48,13 @@ pub struct Kept {
     joints: FxHashMap<usize, [Option<Place>; 2]>,
 }
 
+const WHOLE: [f64; 2] = [0.0, 1.0];
+const NOTHING: [f64; 2] = [1.0, 0.0];
+
 impl Kept {
     /// Of edge k.
     pub fn range(&self, k: usize) -> [f64; 2] {
-        self.ranges.get(k).copied().unwrap_or([0.0, 1.0])
+        self.ranges.get(k).copied().unwrap_or(WHOLE)
     }
 
     /// Of the two places at which a loop is cut off, the one that stands for both.
@@ -64,8 +67,8 @@ impl Kept {
     /// Cuts the loops off a walk of edges, from `first` on, of a chain of `count` edges.
     ///
     /// `flat`: its vertices in millimetres on paper; the last is the first if it is closed. `least`: loops that reach no
-    /// farther than this (mm) beside the edges that stay are cut off, however short these are. `joint`: of two places of the
-    /// chain that are one point on paper.
+    /// farther than this (mm) beside the edges that stay are cut off, however short these are. `joint`: of two places of
+    /// the chain that are one point on paper.
     pub fn cut_off(
         &mut self,
         flat: &[[f64; 2]],
@@ -75,41 +78,50 @@ impl Kept {
         joint: impl Fn(Place, Place) -> Joint,
     ) {
         let edges = flat.len() - 1;
-        let joint = |from: Place, to: Place| joint((first + from.0, from.1), (first + to.0 % edges, to.1));
-        for [from, to] in loops(flat, least, |from, to| joint(from, to).goes_on) {
-            self.ranges.resize(count, [0.0, 1.0]);
-            for k in from.0 + 1..to.0 {
-                self.ranges[first + k % edges] = [1.0, 0.0];
+        for [from, to] in loops(flat, least) {
+            let (i, j) = ((first + from.0, from.1), (first + to.0 % edges, to.1));
+            let within = |place: Place| {
+                let [low, high] = self.range(place.0);
+                low < place.1 && place.1 < high
+            };
+            let inner = || (from.0 + 1..to.0).map(|k| first + k % edges);
+            if !(within(i) && within(j) && inner().all(|k| self.range(k) == WHOLE)) {
+                continue;
             }
-            let (i, j) = (first + from.0, first + to.0 % edges);
-            self.ranges[i][1] = from.1;
-            self.ranges[j][0] = to.1;
-            self.joints.entry(i).or_default()[1] = Some(joint(from, to).place);
-            self.joints.entry(j).or_default()[0] = Some(joint(from, to).place);
+            let joint = joint(i, j);
+            if joint.fits {
+                self.ranges.resize(count, WHOLE);
+                inner().for_each(|k| self.ranges[k] = NOTHING);
+                self.ranges[i.0][1] = i.1;
+                self.ranges[j.0][0] = j.1;
+                self.joints.entry(i.0).or_default()[1] = Some(joint.place);
+                self.joints.entry(j.0).or_default()[0] = Some(joint.place);
+            }
         }
     }
 }
 
-/// What is cut off, in the order of the walk: from a place to another. On a closed walk of n edges the last one may end on
-/// edge n or beyond, which is edge 0 and so on.
-fn loops(flat: &[[f64; 2]], least: f64, goes_on: impl Fn(Place, Place) -> bool) -> Vec<[Place; 2]> {
+/// The loops of a walk, those of most edges first, then the longest: so they do not depend on where it begins, and in
+/// which sense it runs. On a closed walk of n edges edge n is edge 0, and so on.
+fn loops(flat: &[[f64; 2]], least: f64) -> Vec<[Place; 2]> {
     let count = flat.len() - 1;
     let walk = Walk { flat, count, closed: flat[0] == flat[count] };
-    let mut out: Vec<[Place; 2]> = Vec::new();
-    let mut here: Place = (0, 0.0);
-    while here.0 < count {
-        // Around a closed walk up to where the first loop begins.
-        let first = out.first().map_or((count, 0.0), |cut| cut[0]);
-        let end = if walk.closed { (count + first.0, first.1) } else { (count, 0.0) };
-        match walk.widest_from(here, end, least, &goes_on) {
-            Some(found) => {
-                out.push(found);
-                here = found[1];
+    let mut found: Vec<(usize, f64, [Place; 2])> = Vec::new();
+    for i in 0..count {
+        // The edge before i is met at a vertex only.
+        let last = if walk.closed { i + count - 1 } else { count };
+        for j in i + 2..(i + MOST_EDGES).min(last) {
+            let Some((s, t)) = walk.crossing(i, j) else { continue };
+            let wide = least.max(WIDTH * walk.length(i).min(walk.length(j)));
+            if walk.is_narrow(i, j, s, wide) {
+                let inner: f64 = (i + 1..j).map(|k| walk.length(k)).sum();
+                let long = inner + (1.0 - s) * walk.length(i) + t * walk.length(j);
+                found.push((j - i, long, [(i, s), (j, t)]));
             }
-            None => here = (here.0 + 1, 0.0),
         }
     }
-    out
+    found.sort_by(|a, b| b.0.cmp(&a.0).then(b.1.total_cmp(&a.1)));
+    found.into_iter().map(|(_, _, cut)| cut).collect()
 }
 
 struct Walk<'a> {
@@ -127,25 +139,6 @@ impl Walk<'_> {
 
     fn length(&self, k: usize) -> f64 {
         distance(&self.vertex(k), &self.vertex(k + 1))
-    }
-
-    /// The loop of most edges that begins on the edge of `here`, beyond it, and ends before `end`.
-    fn widest_from(
-        &self,
-        here: Place,
-        end: Place,
-        least: f64,
-        goes_on: &impl Fn(Place, Place) -> bool,
-    ) -> Option<[Place; 2]> {
-        let i = here.0;
-        // The edge before i is met at a vertex only.
-        let last = if self.closed { i + self.count - 1 } else { self.count };
-        (i + 2..(i + MOST_EDGES).min(last)).rev().find_map(|j| {
-            let (s, t) = self.crossing(i, j)?;
-            let wide = least.max(WIDTH * self.length(i).min(self.length(j)));
-            let fits = s > here.1 && (j, t) < end && goes_on((i, s), (j, t));
-            (fits && self.is_narrow(i, j, s, wide)).then_some([(i, s), (j, t)])
-        })
     }
 
     /// The parameters at which two edges cross, within both, if the second goes on roughly as the first.
@@ -178,8 +171,6 @@ impl Walk<'_> {
 mod tests {
     use super::*;
 
-    const ALL: fn(Place, Place) -> bool = |_, _| true;
-
     /// The outline of a neck: chords of a circle, seen from outside, each of which runs on beyond the next one.
     fn neck(count: usize, spike: f64) -> Vec<[f64; 2]> {
         let angle = std::f64::consts::TAU / count as f64;
@@ -201,20 +192,46 @@ mod tests {
     fn spikes_are_cut_off_wherever_a_closed_outline_begins() {
         let flat = neck(20, 0.2);
         for first in 0..6 {
-            let found = loops(&closed(flat.clone(), first), 0.0, ALL);
+            let found = loops(&closed(flat.clone(), first), 0.0);
             assert_eq!(found.len(), 20, "{first}: {found:?}");
             assert!(found.iter().all(|[from, to]| to.0 == from.0 + 2 && (from.1 + to.1 - 1.0).abs() < 1e-9));
             assert!(found.iter().filter(|cut| cut[1].0 >= 40).count() == 1, "{first}");
         }
         // An open outline has one place less to cut.
-        assert_eq!(loops(&flat, 0.0, ALL).len(), 19);
+        assert_eq!(loops(&flat, 0.0).len(), 19);
+    }
+
+    #[test]
+    fn what_is_left_does_not_depend_on_where_the_walk_begins_and_in_which_sense_it_runs() {
+        // Chords of uneven lengths, so that loops lie within one another and overlap.
+        let mut flat = neck(24, 0.3);
+        flat.iter_mut().enumerate().for_each(|(i, p)| p[0] += 0.9 * ((7 * i + i * i) % 11) as f64 / 11.0);
+        let left = |flat: Vec<[f64; 2]>| {
+            let mut kept = Kept::default();
+            kept.cut_off(&flat, 0, flat.len() - 1, 0.1, |place, _| Joint { fits: true, place });
+            let at = |k: usize, t: f64| [0, 1].map(|i| flat[k][i] + t * (flat[k + 1][i] - flat[k][i]));
+            let there = (0..flat.len() - 1).map(|k| (k, kept.range(k))).filter(|(_, [low, high])| low < high);
+            let mut ends: Vec<[[i64; 2]; 2]> = there
+                .map(|(k, range)| range.map(|t| at(k, t).map(|c| (c * 1e6).round() as i64)))
+                .map(|[a, b]| if a < b { [a, b] } else { [b, a] })
+                .collect();
+            ends.sort_unstable();
+            ends
+        };
+        let one = left(closed(flat.clone(), 0));
+        assert!(one.len() < flat.len());
+        for first in 1..flat.len() {
+            assert_eq!(left(closed(flat.clone(), first)), one, "{first}");
+        }
+        flat.reverse();
+        assert_eq!(left(closed(flat, 5)), one);
     }
 
     #[test]
     fn what_is_left_of_edges_ends_in_one_point() {
         let flat = closed(neck(20, 0.2), 1);
         let mut kept = Kept::default();
-        kept.cut_off(&flat, 3, 50, 0.0, |place, _| Joint { goes_on: true, place });
+        kept.cut_off(&flat, 3, 50, 0.0, |place, _| Joint { fits: true, place });
         assert_eq!((kept.range(0), kept.range(60)), ([0.0, 1.0], [0.0, 1.0]), "not of this walk");
         let gone = (3..43).filter(|&k| kept.range(k)[0] > kept.range(k)[1]).count();
         assert_eq!(gone, 20);
@@ -235,13 +252,13 @@ mod tests {
             let back = |k: usize| [9.0 - 8.0 * k as f64 / steps as f64, high];
             [vec![[0.0, 0.0]], (0..=steps).map(back).collect(), vec![[10.0, 0.0]]].concat()
         };
-        assert_eq!(loops(&spike(1.0, 1), 0.0, ALL).len(), 1);
-        assert!(loops(&spike(5.0, 1), 0.0, ALL).is_empty());
-        assert_eq!(loops(&spike(5.0, 1), 6.0, ALL).len(), 1, "however short the edges");
-        assert_eq!(loops(&spike(1.0, MOST_EDGES - 2), 0.0, ALL).len(), 1);
-        assert!(loops(&spike(1.0, MOST_EDGES - 1), 0.0, ALL).is_empty());
+        assert_eq!(loops(&spike(1.0, 1), 0.0).len(), 1);
+        assert!(loops(&spike(5.0, 1), 0.0).is_empty());
+        assert_eq!(loops(&spike(5.0, 1), 6.0).len(), 1, "however short the edges");
+        assert_eq!(loops(&spike(1.0, MOST_EDGES - 2), 0.0).len(), 1);
+        assert!(loops(&spike(1.0, MOST_EDGES - 1), 0.0).is_empty());
         // What crosses nothing has none, and neither has a triangle.
-        assert!(loops(&closed(neck(20, -0.2), 0), 1.0, ALL).is_empty());
-        assert!(loops(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0]], 1.0, ALL).is_empty());
+        assert!(loops(&closed(neck(20, -0.2), 0), 1.0).is_empty());
+        assert!(loops(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0]], 1.0).is_empty());
     }
 }
