@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from hard.brep import same
 from OCP.IGESControl import IGESControl_Writer
-from OCP.TopAbs import TopAbs_Orientation
+from OCP.TopAbs import TopAbs_Orientation, TopAbs_ShapeEnum
 
 import hlr
 from hlr.source.cad.iges import open_iges
@@ -38,9 +38,10 @@ def both() -> cq.Shape:
 
 
 def hollow() -> cq.Shape:
-    """A box with a cavity of flat faces, and one that is round."""
-    inner = cq.Workplane().box(10, 10, 10).edges("|Z").fillet(2).translate((-9, 0, 0))
-    return cq.Workplane().box(40, 30, 20).cut(inner).cut(cq.Workplane().sphere(6).translate((10, 0, 0))).val()
+    """A block with rounded edges, and with two cavities: a rounded one and a ball."""
+    inner = cq.Workplane().box(15, 20, 10).edges().fillet(2).translate((-15, 0, 0))
+    block = cq.Workplane().box(60, 30, 20).edges().fillet(3)
+    return block.cut(inner).cut(cq.Workplane().sphere(7).translate((15, 0, 0))).val()
 
 
 MODELS = {"shelled": shelled, "ring": ring, "ball": ball, "both": both, "hollow": hollow}
@@ -89,6 +90,22 @@ def test_loose_faces_as_their_surfaces_look_are_drawn_as_the_solid(name, view):
     drawing = hlr.draw(cq.Compound.makeCompound(forward), view, **AT_SIZE)
     assert drawing.notes == ()
     same(drawing, hlr.draw(shape, view, **AT_SIZE))
+
+
+def test_what_cannot_be_cut_as_a_solid_is_cut_open(tmp_path, monkeypatch):
+    from hlr.source.cad import half_space
+
+    as_it_is = half_space.cut_away
+
+    def cut_away(leaves, origin, normal):
+        if leaves[0].shape.ShapeType() == TopAbs_ShapeEnum.TopAbs_SOLID:
+            raise half_space.UncuttableError(leaves[0].name, "its shape is not sound", "move the plane a little")
+        return as_it_is(leaves, origin, normal)
+
+    monkeypatch.setattr(half_space, "cut_away", cut_away)
+    drawing = hlr.draw(as_faces(hollow(), tmp_path), "front", section=True, **AT_SIZE)
+    assert any("without a hatch" in note.text for note in drawing.notes)
+    assert drawing.lines and not any(line.kind == "hatch" for line in drawing.lines)
 
 
 @pytest.mark.parametrize("seed", range(8))

@@ -93,7 +93,7 @@ def _peaks(moving: Pieces, fixed: Pieces) -> Iterator[Floats]:
 
 
 def _quick(length: int) -> int:
-    """A length of at least so much, though not much more, that a Fourier transform divides well."""
+    """The next length that a Fourier transform is quick at: a few times a power of two, at most an eighth longer."""
     step = 1 << max((length - 1).bit_length() - 4, 0)
     return -(-length // step) * step
 

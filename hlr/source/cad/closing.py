@@ -110,14 +110,17 @@ def _within(inner: Any, outer: Any, near: float) -> bool:
 
 
 def _oriented(shell: Any) -> Any:
-    """The shell with faces that look the same way as their neighbours; sewing leaves some as they were."""
+    """The shell with faces that look the same way as their neighbours; sewing leaves some as they were.
+
+    The shell itself where that would divide it.
+    """
     if shell.Closed():
         return shell
     from OCP.ShapeFix import ShapeFix_Shell
 
     fix = ShapeFix_Shell()
     fix.FixFaceOrientation(shell)
-    return fix.Shell()
+    return fix.Shell() if fix.NbShells() == 1 else shell
 
 
 def _shell_of(face: Any) -> Any:

@@ -54,7 +54,7 @@ _LAST_RECORD = re.compile(rb"T[ 0]*1[\s\x00\x1a]*$")
 
 
 def _repaired(leaf: Leaf) -> Leaf:
-    # Sewing joins the edges of copies as well.
+    # In this order: a face that is rebuilt has edges of its own, which sewing joins with those of its neighbours.
     return _sew_faces(_without_mirrors(leaf))
 
 

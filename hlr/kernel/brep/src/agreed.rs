@@ -1,9 +1,10 @@
 //! Turns faces of a part that look the other way than their neighbours.
 //!
 //! Each face of a compound of loose faces is turned as its surface happens to be. Where two of them go on smoothly as one
-//! another, and one looks outward and the other inward, the edge between them would count as a crease. Among the faces of
-//! an IGES file that are sewn together, some are placed as mirror images. Their edges say how they look after that, so
-//! they are no more inside out than their neighbours; a whole body that is mirrored is.
+//! another, and one looks outward and the other inward, the edge between them would count as a crease.
+//!
+//! A mirror image of a body is inside out, and is turned for that. Among sewn faces single ones may be placed as mirror
+//! images: such a face has been sewn as it looks now, and must not be turned once more.
 
 use crate::explore::{Part, PlacedUse};
 use crate::format::Orientation;
@@ -88,10 +89,11 @@ fn settle(first: u32, beside: &[Vec<Neighbour>], turned: &mut [Option<bool>]) ->
             }
         }
     }
+    let set_size = set.len();
     let many = set.iter().filter(|&&face| turned[face as usize] == Some(true)).count();
     for &face in &set {
         let own = &mut turned[face as usize];
-        *own = own.map(|own| agree && own != (2 * many > next));
+        *own = own.map(|own| agree && own != (2 * many > set_size));
     }
     set
 }

@@ -74,23 +74,22 @@ impl Chain<'_> {
             if is_there(first) {
                 let vertices = [self.ends(first).0].into_iter().chain((first..end).map(|k| self.ends(k).1));
                 let flat: Vec<[f64; 2]> = vertices.map(|v| g.flat(v)).collect();
-                kept.cut_off(&flat, first, count, least, |from, to| self.joint(from, to, least));
+                kept.cut_off(&flat, first, count, least, |from, to, inner| self.joint(from, to, inner, least));
             }
             first = end;
         }
         self.kept = kept;
     }
 
-    /// Of a loop between two places, which are one behind the other. Of what is seen the nearer place stands for both:
-    /// nothing hides it. Where two edges cross, the one begins to hide the other: `beside` (mm) is looked at of each.
-    fn joint(&self, from: Place, to: Place, beside: f64) -> Joint {
+    /// Of a loop from one place to another, which lies behind it or before it, over the edges `inner`. Where the line is
+    /// seen, the nearer place stands for both, for nothing hides it. Where two edges cross, one may begin to hide the other,
+    /// so the line is looked at for `beside` (mm) before the loop and after it.
+    fn joint(&self, from: Place, to: Place, inner: &[usize], beside: f64) -> Joint {
         let share = |place: Place| beside / self.length(place.0);
         let before = self.seen(from.0, from.1 - share(from), from.1) > 0.0;
         let after = self.seen(to.0, to.1, to.1 + share(to)) > 0.0;
-        let count = self.edges.len();
-        let inner = (1..(to.0 + count - from.0) % count).map(|k| (from.0 + k) % count);
-        let ends = self.seen(from.0, from.1, 1.0) + self.seen(to.0, 0.0, to.1);
-        let of_loop = || ends + inner.map(|k| self.seen(k, 0.0, 1.0)).sum::<f64>();
+        let ends = || self.seen(from.0, from.1, 1.0) + self.seen(to.0, 0.0, to.1);
+        let of_loop = || ends() + inner.iter().map(|&k| self.seen(k, 0.0, 1.0)).sum::<f64>();
         let depth = |place: Place| self.geometry.camera.view().depth(&self.at(place).1);
         let place = if (depth(from) <= depth(to)) == before { from } else { to };
         Joint { fits: before == after && (before || of_loop() <= beside), place }

@@ -18,6 +18,7 @@
 //! edges that stay. Where an outline ends at a cusp and the mesh is not coarse, the loop there has many edges, and stays.
 
 use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 
 use super::distance;
 use crate::fit::plane::{dot, minus, to_segment};
@@ -68,14 +69,14 @@ impl Kept {
     ///
     /// `flat`: its vertices in millimetres on paper; the last is the first if it is closed. `least`: loops that reach no
     /// farther than this (mm) beside the edges that stay are cut off, however short these are. `joint`: of two places of
-    /// the chain that are one point on paper.
+    /// the chain that are one point on paper, and the edges between them.
     pub fn cut_off(
         &mut self,
         flat: &[[f64; 2]],
         first: usize,
         count: usize,
         least: f64,
-        joint: impl Fn(Place, Place) -> Joint,
+        joint: impl Fn(Place, Place, &[usize]) -> Joint,
     ) {
         let edges = flat.len() - 1;
         for [from, to] in loops(flat, least) {
@@ -84,14 +85,14 @@ impl Kept {
                 let [low, high] = self.range(place.0);
                 low < place.1 && place.1 < high
             };
-            let inner = || (from.0 + 1..to.0).map(|k| first + k % edges);
-            if !(within(i) && within(j) && inner().all(|k| self.range(k) == WHOLE)) {
+            let inner: SmallVec<[usize; MOST_EDGES]> = (from.0 + 1..to.0).map(|k| first + k % edges).collect();
+            if !(within(i) && within(j) && inner.iter().all(|&k| self.range(k) == WHOLE)) {
                 continue;
             }
-            let joint = joint(i, j);
+            let joint = joint(i, j, &inner);
             if joint.fits {
                 self.ranges.resize(count, WHOLE);
-                inner().for_each(|k| self.ranges[k] = NOTHING);
+                inner.iter().for_each(|&k| self.ranges[k] = NOTHING);
                 self.ranges[i.0][1] = i.1;
                 self.ranges[j.0][0] = j.1;
                 self.joints.entry(i.0).or_default()[1] = Some(joint.place);
@@ -208,7 +209,7 @@ mod tests {
         flat.iter_mut().enumerate().for_each(|(i, p)| p[0] += 0.9 * ((7 * i + i * i) % 11) as f64 / 11.0);
         let left = |flat: Vec<[f64; 2]>| {
             let mut kept = Kept::default();
-            kept.cut_off(&flat, 0, flat.len() - 1, 0.1, |place, _| Joint { fits: true, place });
+            kept.cut_off(&flat, 0, flat.len() - 1, 0.1, |place, _, _| Joint { fits: true, place });
             let at = |k: usize, t: f64| [0, 1].map(|i| flat[k][i] + t * (flat[k + 1][i] - flat[k][i]));
             let there = (0..flat.len() - 1).map(|k| (k, kept.range(k))).filter(|(_, [low, high])| low < high);
             let mut ends: Vec<[[i64; 2]; 2]> = there
@@ -231,7 +232,7 @@ mod tests {
     fn what_is_left_of_edges_ends_in_one_point() {
         let flat = closed(neck(20, 0.2), 1);
         let mut kept = Kept::default();
-        kept.cut_off(&flat, 3, 50, 0.0, |place, _| Joint { fits: true, place });
+        kept.cut_off(&flat, 3, 50, 0.0, |place, _, _| Joint { fits: true, place });
         assert_eq!((kept.range(0), kept.range(60)), ([0.0, 1.0], [0.0, 1.0]), "not of this walk");
         let gone = (3..43).filter(|&k| kept.range(k)[0] > kept.range(k)[1]).count();
         assert_eq!(gone, 20);
