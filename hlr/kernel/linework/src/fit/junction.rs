@@ -218,12 +218,16 @@ pub(super) fn touching(
     // The foot point on own of a place of other, and the sine of the angle between them there.
     let look = |mut t: f64, u: f64| {
         let [q, b] = other.at(u);
+        let [mut p, mut a] = own.at(t);
         for _ in 0..STEPS {
-            let [p, a] = own.at(t);
             let d = minus(&q, &p);
-            t += (d[0] * a[0] + d[1] * a[1]) / (a[0] * a[0] + a[1] * a[1]);
+            let next = t + (d[0] * a[0] + d[1] * a[1]) / (a[0] * a[0] + a[1] * a[1]);
+            if next == t {
+                break;
+            }
+            t = next;
+            [p, a] = own.at(t);
         }
-        let [p, a] = own.at(t);
         (t, length(&minus(&q, &p)), (a[0] * b[1] - a[1] * b[0]) / (length(&a) * length(&b)))
     };
     let speed = length(&other.at(u)[1]);

@@ -25,10 +25,14 @@ const STRAIGHT_ON: f64 = 0.98;
 /// Sine of the angle below which two lines run along one another, and touch nowhere in particular.
 const ALONG: f64 = 1e-4;
 
+/// More than sums of a few distances are off by rounding.
+const ROUNDED_UP: f64 = 1.001;
+
 /// Of the way that an end moved: how far apart two lines are found to touch a third in the same place.
 const SAME_PLACE: f64 = 1e-3;
 
 /// A visible end: its line, which end, its place, and the unit direction in which it points.
+#[derive(Clone, Copy)]
 struct End {
     line: usize,
     end: usize,
@@ -44,6 +48,7 @@ pub fn smooth_joints(routes: &[Route], moved: &[Move], accuracy: f64, contact: f
     }
     let mut all = ends(routes);
     all.sort_by(|a, b| a.at[0].total_cmp(&b.at[0]));
+    let outlines: Vec<End> = all.iter().filter(|end| routes[end.line].border == Border::Outline).copied().collect();
     let settled: FxHashSet<(usize, usize)> = moved.iter().map(|m| (m.line, m.end)).collect();
     let near = JUNCTION_TOUCH * accuracy;
     // Whether an end may move: no other meets it, and no line that crosses explains it.
@@ -52,10 +57,8 @@ pub fn smooth_joints(routes: &[Route], moved: &[Move], accuracy: f64, contact: f
         !beside && !settled.contains(&(own.line, own.end))
     };
     let joint = |own: &End| -> Option<Vec<Move>> {
-        let facing = |o: &&End| {
-            routes[o.line].border == Border::Outline && dot(&own.way, &o.way) < -ON && distance(o, own) <= JOINT_REACH
-        };
-        let asked = within(&all, own.at[0], JOINT_REACH).iter().filter(facing);
+        let facing = |o: &&End| dot(&own.way, &o.way) < -ON && distance(o, own) <= JOINT_REACH;
+        let asked = within(&outlines, own.at[0], JOINT_REACH).iter().filter(facing);
         let found = asked.filter_map(|o| Some((o, contact_of(routes, own, o, accuracy, contact, view)?)));
         let (outline, (_, [first, second])) = found.min_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
         Some(if is_free(outline) { vec![first, second] } else { vec![first] })
@@ -145,21 +148,28 @@ fn contact_of(
     let (line, other) = (&routes[own.line], &routes[outline.line]);
     let last = |end: &End, route: &Route| route.parameter(end.end * (route.flat.len() - 2), end.end as f64);
     let (start, from) = (last(own, line), last(outline, other));
-    let ([_, a], [_, b]) = (line.at(start), other.at(from));
+    let ([before, a], [after, b]) = (line.at(start), other.at(from));
     if (a[0] * b[1] - a[1] * b[0]).abs() <= ALONG * length(&a) * length(&b) {
+        return None;
+    }
+    // The place is so near the outline's end that most others are told by where that end is: no search for them.
+    let near = |far: f64| far <= JUNCTION_OUTLINE * accuracy;
+    let ahead = minus(&after, &before);
+    let slack = (JUNCTION_OUTLINE + JUNCTION_TOUCH) * accuracy * ROUNDED_UP;
+    if !near(length(&ahead) - slack) && dot(&ahead, &own.way) + slack < STRAIGHT_ON * (length(&ahead) - slack) {
         return None;
     }
     let (t, u) = touching(line, other, (start, from), JOINT_REACH, accuracy)?;
     let (t, u) = (line.ending(t, start)?, other.ending(u, from)?);
-    let (place, before) = (line.at(t)[0], line.at(start)[0]);
+    let place = line.at(t)[0];
     let (there, space) = (other.at(u)[0], other.in_space(u, view));
     let deep = view.depth(&line.in_space(t, view)) - view.depth(&space);
     let way = minus(&place, &before);
     let far = length(&way);
     // A long way goes nearly straight on.
-    let onward = far <= JUNCTION_OUTLINE * accuracy || dot(&way, &own.way) >= STRAIGHT_ON * far;
+    let onward = near(far) || dot(&way, &own.way) >= STRAIGHT_ON * far;
     let met = length(&minus(&place, &there)) <= JUNCTION_TOUCH * accuracy
-        && length(&minus(&there, &other.at(from)[0])) <= JUNCTION_OUTLINE * accuracy
+        && near(length(&minus(&there, &after)))
         && deep.abs() <= contact
         && onward
         && far <= JOINT_REACH;
