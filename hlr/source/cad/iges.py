@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +13,9 @@ from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.occt_import import load_occt
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.prototypes import binary_dump
+from hlr.source.cad.sewing import sewn, with_shape
 from hlr.source.cad.shapes import sub_shapes, with_location
 from hlr.source.cad.xcaf import read_document
-
-SEWING_TOLERANCE_SHARE = 5e-6
-"""Share of a leaf's diagonal: borders of two faces that are no further apart than this are sewn into one edge."""
-
-SMALLEST_SEWING_TOLERANCE = 1e-7
-"""Model units."""
 
 
 def open_iges(path: Path) -> BrepSource:
@@ -55,7 +49,7 @@ _LAST_RECORD = re.compile(rb"T[ 0]*1[\s\x00\x1a]*$")
 
 def _repaired(leaf: Leaf) -> Leaf:
     # In this order: a face that is rebuilt has edges of its own, which sewing joins with those of its neighbours.
-    return _sew_faces(_without_mirrors(leaf))
+    return sewn(_without_mirrors(leaf))
 
 
 def _without_mirrors(leaf: Leaf) -> Leaf:
@@ -77,7 +71,7 @@ def _without_mirrors(leaf: Leaf) -> Leaf:
         return leaf
     copies = [face.TShape() for face in faces], sub_shapes(again, Kind.TopAbs_FACE)
     copy_of = dict(zip(*copies, strict=True))
-    return _with_shape(leaf, purge.GetResult(), faces, lambda face: purge.ModifiedShape(copy_of[face.TShape()]))
+    return with_shape(leaf, purge.GetResult(), faces, lambda face: purge.ModifiedShape(copy_of[face.TShape()]))
 
 
 def _read_again(shape: Any) -> Any:
@@ -88,47 +82,3 @@ def _read_again(shape: Any) -> Any:
     whole = TopoDS_Shape()
     BinTools.Read_s(whole, io.BytesIO(binary_dump([shape])))
     return TopoDS_Iterator(whole).Value()
-
-
-def _sew_faces(leaf: Leaf) -> Leaf:
-    """The leaf with neighbouring faces joined, so that an edge has a face on either side.
-
-    A leaf that holds shells, or of which sewing would lose a face, stays as it is.
-    """
-    from OCP.Bnd import Bnd_Box
-    from OCP.BRepBndLib import BRepBndLib
-    from OCP.BRepBuilderAPI import BRepBuilderAPI_Sewing
-    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
-
-    shape = with_location(leaf.shape, None)
-    faces = sub_shapes(shape, Kind.TopAbs_FACE)
-    if not faces or sub_shapes(shape, Kind.TopAbs_SHELL):
-        return leaf
-    box = Bnd_Box()
-    BRepBndLib.Add_s(shape, box)
-    tolerance = max(SMALLEST_SEWING_TOLERANCE, SEWING_TOLERANCE_SHARE * box.SquareExtent() ** 0.5)
-    sewing = BRepBuilderAPI_Sewing(tolerance)
-    sewing.Add(shape)
-    sewing.Perform()
-    sewn = sewing.SewedShape()
-    if sewn is None or sewn.IsNull() or len(sub_shapes(sewn, Kind.TopAbs_FACE)) != len(faces):
-        return leaf
-
-    def made_of(face: Any) -> Any:
-        return sewing.ModifiedSubShape(face) if sewing.IsModifiedSubShape(face) else face
-
-    return _with_shape(leaf, sewn, faces, made_of)
-
-
-def _with_shape(leaf: Leaf, shape: Any, faces: Sequence[Any], made_of: Callable[[Any], Any]) -> Leaf:
-    """The leaf with another shape. Each face that was made of one of its `faces` has the colour of that."""
-    colors, opacities = {}, {}
-    for face in faces:
-        key = face.TShape()
-        if key in leaf.colors:
-            made = made_of(face).TShape()
-            colors[made] = leaf.colors[key]
-            if key in leaf.opacities:
-                opacities[made] = leaf.opacities[key]
-    placed = shape.Moved(leaf.shape.Location(), False)
-    return Leaf(placed, leaf.name, leaf.color, colors, leaf.opacity, opacities, leaf.above)

@@ -9,6 +9,7 @@ from hlr.errors import SourceError
 from hlr.source.cad.annotation import may_contain_annotation
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.occt_import import load_occt
+from hlr.source.cad.sewing import sewn
 from hlr.source.cad.xcaf import read_document
 from hlr.source.file_checks import check_signature
 from hlr.source.step_references import references
@@ -42,7 +43,7 @@ def open_step(path: Path, annotations: bool = False) -> BrepSource:
         notes.append(Note("references-missing", text))
     filter_annotation = not annotations and may_contain_annotation(path)
     try:
-        return read_document(path, "step", reader, notes, filter_annotation=filter_annotation)
+        return read_document(path, "step", reader, notes, filter_annotation=filter_annotation, repair_leaf=sewn)
     except SourceError as error:
         if not missing:
             raise

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +13,11 @@ from hlr.errors import SourceError
 from hlr.source.cad.annotation import AnnotationFilter, label_entry, left_out_note
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.colors import srgb
+from hlr.source.cad.loose_faces import as_one, is_loose
 from hlr.source.cad.occt_collections import new_collection
 from hlr.source.cad.occt_import import silence_stdout
 from hlr.source.cad.parts import Leaf
-from hlr.source.cad.shapes import sub_shapes
+from hlr.source.cad.shapes import sub_shapes, with_location
 from hlr.source.cad.source_builder import build_source
 
 MAX_DEPTH = 200
@@ -66,10 +68,24 @@ def read_document(
     )
     tree.walk(path.stem, AnnotationFilter(reader, document) if filter_annotation else None)
     if repair_leaf is not None:
-        tree.leaves = [repair_leaf(leaf) for leaf in tree.leaves]
+        tree.leaves = _repaired(tree.leaves, repair_leaf)
     if not tree.leaves:
         raise SourceError(f"{path.name} holds no shapes: the assembly is empty, there is nothing to draw.")
     return build_source(path.name, kind, tree.leaves, [*notes, *tree.notes])
+
+
+def _repaired(leaves: list[Leaf], repair: Callable[[Leaf], Leaf]) -> list[Leaf]:
+    """The leaves repaired; those of one product once."""
+    known: dict[Any, Leaf] = {}
+    made = []
+    for leaf in leaves:
+        key = leaf.shape.TShape(), leaf.shape.Orientation(), id(leaf.colors)
+        if key not in known:
+            known[key] = repair(leaf)
+        same = known[key]
+        placed = with_location(same.shape, None).Moved(leaf.shape.Location(), False)
+        made.append(replace(leaf, shape=placed, colors=same.colors, opacities=same.opacities))
+    return made
 
 
 class _AssemblyTree:
@@ -81,6 +97,7 @@ class _AssemblyTree:
         self.notes: list[Note] = []
         self._annotation: AnnotationFilter | None = None
         self._left_out = 0
+        self._nameless: set[int] = set()
         self._known_colors: dict[str, tuple[dict[Any, Color], dict[Any, float]]] = {}
 
     def walk(self, fallback: str, annotation: AnnotationFilter | None = None) -> None:
@@ -91,9 +108,10 @@ class _AssemblyTree:
         free = new_collection("labels")
         self.shapes.GetFreeShapes(free)
         self._annotation, self._left_out = annotation, 0
-        self.leaves, self.notes = [], []
+        self.leaves, self.notes, self._nameless = [], [], set()
         for i in range(1, free.Length() + 1):
             self._visit(free.Value(i), TopLoc_Location(), None, fallback, [], ())
+        self._join_nameless(0, fallback, ())
         if not self._left_out:
             return
         if any(sub_shapes(leaf.shape, Kind.TopAbs_FACE) for leaf in self.leaves):
@@ -127,8 +145,12 @@ class _AssemblyTree:
             self.shapes.GetComponents_s(product, children)
             # The product may be known by its own name, or by that of this place in the assembly.
             names = tuple(dict.fromkeys((*assemblies, *filter(None, (_name(product), _name(label))))))
+            before = len(self.leaves)
             for i in range(1, children.Length() + 1):
                 self._visit(children.Value(i), place, color, name, path, names)
+            self._join_nameless(before, name, assemblies)
+            if not _is_nameless(product, label):
+                self._nameless = {index for index in self._nameless if index < before}
             return
         shape = self.shapes.GetShape_s(product)
         if shape is None or shape.IsNull():
@@ -147,7 +169,19 @@ class _AssemblyTree:
         leaf = Leaf(shape.Moved(place, False), name, colors=colors, opacities=opacities, above=known)
         if color is not None:
             leaf.color, leaf.opacity = color[:3], color[3]
+        if _is_nameless(product, label) and is_loose(leaf):
+            self._nameless.add(len(self.leaves))
         self.leaves.append(leaf)
+
+    def _join_nameless(self, before: int, name: str, assemblies: tuple[str, ...]) -> None:
+        """Make one leaf, called `name`, of the faces without a name among the leaves behind the first `before`."""
+        found = sorted(index for index in self._nameless if index >= before)
+        if len(found) < 2:
+            return
+        self._nameless.difference_update(found)
+        self.leaves[found[0]] = as_one([self.leaves[index] for index in found], name, assemblies)
+        for index in reversed(found[1:]):
+            del self.leaves[index]
 
     def _sub_shape_colors(self, product: Any) -> tuple[dict[Any, Color], dict[Any, float]]:
         """Colours, and opacities below one, of the solids and faces of a product, by TShape."""
@@ -176,6 +210,12 @@ class _AssemblyTree:
             if self.colors.GetColor_s(label, kind, color):
                 return (*srgb(color.GetRGB()), round(color.Alpha(), 6))
         return None
+
+
+def _is_nameless(product: Any, label: Any) -> bool:
+    """Whether neither a product nor its place has a name. OpenCASCADE's writer numbers places without one."""
+    of_place = _name(label)
+    return not _name(product) and (not of_place or of_place.isdecimal())
 
 
 def _name(label: Any) -> str:

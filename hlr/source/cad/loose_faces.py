@@ -1,0 +1,42 @@
+"""Faces outside solids that a STEP file lists as products without a name: pieces of one surface, and no parts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from hlr.common.types import Color
+from hlr.source.cad.parts import Leaf
+from hlr.source.cad.shapes import make_compound, sub_shapes
+
+
+def is_loose(leaf: Leaf) -> bool:
+    """Whether it has faces, and no solids."""
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+    from OCP.TopExp import TopExp_Explorer
+
+    return TopExp_Explorer(leaf.shape, Kind.TopAbs_FACE).More() and not (
+        TopExp_Explorer(leaf.shape, Kind.TopAbs_SOLID).More()
+    )
+
+
+def as_one(leaves: Sequence[Leaf], name: str, above: tuple[str, ...]) -> Leaf:
+    """One leaf of several. Where their colours differ, its faces have them.
+
+    above: names of the assemblies that it is in
+    """
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+    whole = make_compound([leaf.shape for leaf in leaves])
+    looks = {(leaf.color, leaf.opacity) for leaf in leaves}
+    colors: dict[object, Color] = {}
+    opacities: dict[object, float] = {}
+    for leaf in leaves:
+        if len(looks) > 1 and leaf.color is not None:
+            for face in sub_shapes(leaf.shape, Kind.TopAbs_FACE):
+                colors[face.TShape()] = leaf.color
+                if leaf.opacity < 1.0:
+                    opacities[face.TShape()] = leaf.opacity
+        colors |= leaf.colors
+        opacities |= leaf.opacities
+    color, opacity = looks.pop() if len(looks) == 1 else (None, 1.0)
+    return Leaf(whole, name, color, colors, opacity, opacities, above)
