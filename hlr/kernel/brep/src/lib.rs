@@ -2,7 +2,6 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
-mod agreed;
 pub mod assemble;
 pub mod body;
 pub mod bounds;
@@ -32,3 +31,4 @@ pub mod sets;
 pub mod shapes;
 pub mod tangency;
 pub mod tessellate;
+mod turned_faces;

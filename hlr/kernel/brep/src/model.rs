@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-use crate::agreed::turn_to_agree;
 use crate::classes::{Classes, classes};
 use crate::copies::mark_copies;
 use crate::explore::{self, Part};
@@ -13,6 +12,7 @@ use crate::geometry::moved_surface::moved;
 use crate::geometry::surface::Surface;
 use crate::part_topology::{PartTopology, part_topology};
 use crate::shapes::{Edge, Face, OnSurface, Shapes, Use};
+use crate::turned_faces::turn_to_agree;
 
 /// Edges, faces or parts that one thread makes in one go.
 const AT_ONCE: usize = 16;
