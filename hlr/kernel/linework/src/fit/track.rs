@@ -11,20 +11,24 @@ const TURN: f64 = 0.86;
 /// Rounds in which samples are added.
 const ROUNDS: usize = 6;
 const STEPS: usize = 20;
+/// Samples in a row that share a box.
+const RUN: usize = 16;
 
 /// The period of a curve, if it is closed, and points to begin a search from.
 pub struct Track {
     pub period: Option<f64>,
     /// A closed B-spline has parameters only inside its range.
     bounded: Option<[f64; 2]>,
-    places: Vec<(f64, Vec3)>,
+    places: Places,
 }
 
 impl Track {
     /// model: the distance in model units below which the two ends are one point.
     pub fn new(curve: &Curve, range: [f64; 2], model: f64) -> Track {
         match curve {
-            Curve::Ellipse { .. } => Track { period: Some(std::f64::consts::TAU), bounded: None, places: Vec::new() },
+            Curve::Ellipse { .. } => {
+                Track { period: Some(std::f64::consts::TAU), bounded: None, places: Places::default() }
+            }
             Curve::Spline(n) => {
                 let (low, high) = n.domain();
                 let range = [range[0].max(low), range[1].min(high)];
@@ -43,9 +47,9 @@ impl Track {
                 places.push(range[1]);
                 let places: Vec<(f64, Vec3)> = places.into_iter().map(|t| (t, curve.point(t))).collect();
                 let places = if n.sampled { places } else { dense(places, curve) };
-                Track { period, bounded: Some(range), places }
+                Track { period, bounded: Some(range), places: Places::new(places) }
             }
-            _ => Track { period: None, bounded: None, places: Vec::new() },
+            _ => Track { period: None, bounded: None, places: Places::default() },
         }
     }
 
@@ -115,16 +119,7 @@ impl Track {
             Curve::Line { p: origin, a } => {
                 return dot3(&[0, 1, 2].map(|k| p[k] - origin[k]), a) / dot3(a, a);
             }
-            Curve::Spline(_) => {
-                let mut best = (f64::INFINITY, 0.0);
-                for (t, place) in &self.places {
-                    let d = distance(place, p);
-                    if d < best.0 {
-                        best = (d, *t);
-                    }
-                }
-                best.1
-            }
+            Curve::Spline(_) => self.places.nearest(p),
         };
         self.descend(curve, p, start)
     }
@@ -161,6 +156,44 @@ impl Track {
             t = next;
         }
         self.wrapped(best.1)
+    }
+}
+
+/// Points of a curve, ascending, and a box around each RUN of them.
+#[derive(Default)]
+struct Places {
+    at: Vec<(f64, Vec3)>,
+    boxes: Vec<[Vec3; 2]>,
+}
+
+impl Places {
+    fn new(at: Vec<(f64, Vec3)>) -> Places {
+        let bound = |run: &[(f64, Vec3)], most: fn(f64, f64) -> f64| {
+            run[1..].iter().fold(run[0].1, |all, (_, p)| [0, 1, 2].map(|k| most(all[k], p[k])))
+        };
+        let boxes = at.chunks(RUN).map(|run| [bound(run, f64::min), bound(run, f64::max)]).collect();
+        Places { at, boxes }
+    }
+
+    /// The parameter of the point nearest to p, the first of several.
+    fn nearest(&self, p: &Vec3) -> f64 {
+        let runs = self.at.chunks(RUN);
+        let near = runs.clone().map(|run| distance(&run[0].1, p)).fold(f64::INFINITY, f64::min);
+        let mut best = (f64::INFINITY, 0.0);
+        for (run, [low, high]) in runs.zip(&self.boxes) {
+            let inside = [0, 1, 2].map(|k| p[k].max(low[k]).min(high[k]));
+            // Rounding keeps order: no point in a box is found nearer than this.
+            if distance(&inside, p) > near.min(best.0) {
+                continue;
+            }
+            for (t, place) in run {
+                let d = distance(place, p);
+                if d < best.0 {
+                    best = (d, *t);
+                }
+            }
+        }
+        best.1
     }
 }
 
@@ -229,10 +262,13 @@ mod tests {
         let many = dense(few, &curve);
         assert!((9 * 12..9 * 26).contains(&many.len()), "{}", many.len());
         assert!(many.windows(2).all(|w| w[0].0 < w[1].0));
-        let track = Track { period: None, bounded: Some([0.0, 36.0]), places: many };
+        let track = Track { period: None, bounded: Some([0.0, 36.0]), places: Places::new(many) };
         for k in 0..500 {
             let t = 36.0 * f64::from(k) / 500.0;
             assert!((track.nearest(&curve, &curve.point(t)) - t).abs() < 1e-6, "{t}");
+            let p = [5.0 * t.sin(), 0.3 * t, t / 9.0];
+            let found = track.places.at.iter().map(|(_, place)| distance(place, &p)).fold(f64::INFINITY, f64::min);
+            assert_eq!(distance(&curve.point(track.places.nearest(&p)), &p), found, "{t}");
         }
     }
 }

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 
 use super::invisibility::{Event, Segment, walk};
 use super::mesh::Mesh;
-use super::piercing::pierce;
+use super::piercing::{Ends, pierce};
 use super::polygon_table::{PolygonTable, is_left_out};
 use super::query_points::Count;
 use crate::boxes::aabb::Aabb;
@@ -107,9 +107,11 @@ impl<'a> ExactQuery<'a> {
                     events.push(Event { drawn: 0, at, plain: hit.to_left, moved });
                 }
             }
-            pierce(a, b, &cover, delta, |at, plain, moved| {
-                events.push(Event { drawn: 0, at, plain, moved });
-            });
+            if let Some(ends) = Ends::over(&cover, a, b) {
+                pierce(&cover, &ends, delta, |at, plain, moved| {
+                    events.push(Event { drawn: 0, at, plain, moved });
+                });
+            }
         }
         walk(start, &mut events, end, out)
     }

@@ -22,7 +22,7 @@ use crate::boxes::aabb::{Aabb, Item};
 use crate::boxes::tree::Tree;
 use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
-use hlr_exact::predicates::{Cover, is_beside, shifted_side};
+use hlr_exact::predicates::{Cover, is_beside, orient2d, shifted_side};
 
 /// With more other groups than this around one, their boxes are not tested separately.
 const MANY_AROUND: usize = 32;
@@ -103,13 +103,13 @@ pub fn piercings<A: Arithmetic>(
                     let reach = Aabb::of(&[a, b]).toward_viewer(Slant::most(delta));
                     trees[other as usize].query(&reach, |t| {
                         tests += 1;
-                        touches = touches || slant.touches::<A>(own, [a, b], t as usize);
-                        let (p, q, r) = mesh.corners(t as usize);
-                        if is_beside::<A>(a, b, [p, q, r]) {
+                        let Some(cover) = mesh.cover::<A>(t as usize) else { return };
+                        let Some(ends) = Ends::over(&cover, a, b) else { return };
+                        if is_beside::<A>(a, b, [&cover.p, &cover.q, &cover.r]) {
                             return;
                         }
-                        let Some(cover) = mesh.cover::<A>(t as usize) else { return };
-                        pierce(a, b, &cover, delta, |at, plain, moved| {
+                        touches = touches || slant.touches(own, &ends.beneath, &cover, t as usize);
+                        pierce(&cover, &ends, delta, |at, plain, moved| {
                             events.push(Event { drawn: (chunk * 256 + i) as u32, at, plain, moved });
                         });
                     });
@@ -124,32 +124,51 @@ pub fn piercings<A: Arithmetic>(
     Piercings { events: found.into_iter().map(|f| f.events).collect(), tests, groups: searched, sought, slanted }
 }
 
-/// Reports where a -> b passes through the polygon: in its true place, and moved toward the viewer by `delta`.
+/// Both ends of an edge, as a polygon sees them.
+pub struct Ends<A: Arithmetic> {
+    /// Orientations against the polygon's borders.
+    sides: [[A::Area; 3]; 2],
+    /// How far they lie beneath its plane.
+    pub beneath: [A::Volume; 2],
+}
+
+impl<A: Arithmetic> Ends<A> {
+    /// None if both lie beyond the same border: of most polygons whose boxes meet the edge's, long slanted ones, that is
+    /// known after a border or two.
+    #[inline(always)]
+    pub fn over(cover: &Cover<A>, a: &Point, b: &Point) -> Option<Ends<A>> {
+        let zero = A::Area::ZERO;
+        let (mut one, mut two) = ([zero; 3], [zero; 3]);
+        for k in 0..3 {
+            let (p, q) = cover.edge(k);
+            (one[k], two[k]) = (orient2d::<A>(p, q, a), orient2d::<A>(p, q, b));
+            if one[k] < zero && two[k] < zero {
+                return None;
+            }
+        }
+        Some(Ends { beneath: [cover.beneath(a, &one), cover.beneath(b, &two)], sides: [one, two] })
+    }
+}
+
+/// Reports where an edge passes through the polygon: in its true place, and moved toward the viewer by `delta`.
 pub fn pierce<A: Arithmetic>(
-    a: &Point,
-    b: &Point,
     cover: &Cover<A>,
+    ends: &Ends<A>,
     delta: i64,
     mut report: impl FnMut(A::Parameter, i32, i32),
 ) {
-    let sa = cover.sides(a);
-    let sb = cover.sides(b);
-    if (0..3).any(|k| sa[k] < A::Area::ZERO && sb[k] < A::Area::ZERO) {
-        return;
-    }
-    let ga = cover.beneath(a, &sa);
-    let gb = cover.beneath(b, &sb);
+    let ([sa, sb], [ga, gb]) = (&ends.sides, ends.beneath);
     let shift = cover.shift(delta);
     if delta == 0 {
-        if let Some((at, jump)) = through(cover, &sa, &sb, ga, gb) {
+        if let Some((at, jump)) = through(cover, sa, sb, ga, gb) {
             report(at, jump, jump);
         }
         return;
     }
-    if let Some((at, jump)) = through(cover, &sa, &sb, ga, gb) {
+    if let Some((at, jump)) = through(cover, sa, sb, ga, gb) {
         report(at, jump, 0);
     }
-    if let Some((at, jump)) = through(cover, &sa, &sb, ga - shift, gb - shift) {
+    if let Some((at, jump)) = through(cover, sa, sb, ga - shift, gb - shift) {
         report(at, 0, jump);
     }
 }
@@ -260,7 +279,9 @@ mod tests {
 
     fn found(a: Point, b: Point, cover: &Cover, delta: i64) -> Vec<(f64, i32, i32)> {
         let mut out = Vec::new();
-        pierce(&a, &b, cover, delta, |at, plain, moved| out.push((at.value(), plain, moved)));
+        if let Some(ends) = Ends::over(cover, &a, &b) {
+            pierce(cover, &ends, delta, |at, plain, moved| out.push((at.value(), plain, moved)));
+        }
         out
     }
 

@@ -12,8 +12,8 @@
 use super::mesh::Mesh;
 use hlr_accuracy::CONTACT_AT_RIGHT_ANGLES;
 use hlr_exact::Point;
-use hlr_exact::arithmetic::{Arithmetic, Ring};
-use hlr_exact::predicates::{Cover, is_beside};
+use hlr_exact::arithmetic::Arithmetic;
+use hlr_exact::predicates::Cover;
 
 /// |N . v|: for polygons seen at less, the tolerance grows no more.
 const LEAST: f64 = 0.05;
@@ -64,19 +64,14 @@ impl Slant<'_> {
         (delta as f64 * (CONTACT_AT_RIGHT_ANGLES / LEAST)) as i64
     }
 
-    /// Whether the edge a-b, of this group, lies behind the polygon by more than the count allows, and touches it.
-    pub fn touches<A: Arithmetic>(&self, group: i32, [a, b]: [&Point; 2], t: usize) -> bool {
-        let (delta, slanted) = (self.mesh.delta(group, self.mesh.triangle_group[t]), self.delta(group, t));
-        let (p, q, r) = self.mesh.corners(t);
-        if slanted <= delta || is_beside::<A>(a, b, [p, q, r]) {
-            return false;
+    /// Whether an edge of this group, whose ends lie so far beneath the polygon t, lies behind it by more than the count
+    /// allows, and touches it.
+    pub fn touches<A: Arithmetic>(&self, group: i32, beneath: &[A::Volume; 2], cover: &Cover<A>, t: usize) -> bool {
+        let delta = self.mesh.delta(group, self.mesh.triangle_group[t]);
+        // The slant is asked for last: it takes a root.
+        beneath.iter().any(|g| *g > cover.shift(delta)) && {
+            let slanted = self.delta(group, t);
+            slanted > delta && beneath.iter().any(|g| *g <= cover.shift(slanted))
         }
-        let Some(cover): Option<Cover<A>> = self.mesh.cover(t) else { return false };
-        let (one, two) = (cover.sides(a), cover.sides(b));
-        if (0..3).any(|k| one[k] < A::Area::ZERO && two[k] < A::Area::ZERO) {
-            return false;
-        }
-        let beneath = [cover.beneath(a, &one), cover.beneath(b, &two)];
-        beneath.iter().any(|g| *g > cover.shift(delta)) && beneath.iter().any(|g| *g <= cover.shift(slanted))
     }
 }
