@@ -82,6 +82,9 @@ def _on_plane(part: PartMesh, origin: Floats, normal: Floats, near: float, whole
     if before is not None:
         numbers = np.flatnonzero(cut)
         level[numbers] = ~cut_ones(part, part.triangles[numbers], part.triangle_face[numbers], before, normal, near)
+    if part.brep:
+        # A plane leaves flat faces. Triangles of a curved one lie on it where it nearly touches that face.
+        cut &= part.face_planar[part.triangle_face]
     return cut & ~level, level
 
 

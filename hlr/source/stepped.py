@@ -41,11 +41,11 @@ class Stepped:
         return float(heights.min() - beside.max()), float(heights.max() - beside.min())
 
     def blocks(self) -> Iterator[tuple[float, float, float]]:
-        """What lies before the planes, as blocks that overlap: from where to where along, and from which level on."""
+        """What lies behind the planes, as blocks that overlap: from where to where along, and up to which level."""
         ends = np.concatenate([[-np.inf], self.steps, [np.inf]])
         for level in np.unique(self.levels).tolist():
-            before = np.concatenate([[0], self.levels <= level, [0]]).astype(int)
-            starts, stops = (np.flatnonzero(np.diff(before) == sense) for sense in (1, -1))
+            behind = np.concatenate([[0], self.levels >= level, [0]]).astype(int)
+            starts, stops = (np.flatnonzero(np.diff(behind) == sense) for sense in (1, -1))
             yield from ((float(ends[a]), float(ends[b]), level) for a, b in zip(starts, stops, strict=True))
 
     def before(self, transform: Floats) -> Stepped:

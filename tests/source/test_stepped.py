@@ -22,9 +22,9 @@ def test_reach_counts_the_planes_that_a_part_lies_over():
     assert STEPS.reach(np.array([(0.0, 0, 12), (9.0, 0, 12)])) == (-8.0, 2.0)
 
 
-def test_what_lies_before_them_is_blocks_that_overlap():
+def test_what_lies_behind_them_is_blocks_that_overlap():
     ends = np.inf
-    assert list(STEPS.blocks()) == [(-ends, -5.0, 0.0), (-ends, -5.0, 10.0), (5.0, ends, 10.0), (-ends, ends, 20.0)]
+    assert list(STEPS.blocks()) == [(-ends, ends, 0.0), (-5.0, ends, 10.0), (-5.0, 5.0, 20.0)]
     assert list(Stepped(UP, RIGHT, np.array([3.0]), np.zeros(0)).blocks()) == [(-ends, ends, 3.0)]
 
 

@@ -190,12 +190,14 @@ def _notes(drawing: Drawing, session: Session, cut: _Cut, name: str) -> list[Not
     hatched = {cut.source.whose[drawing.parts[k].name] for k in drawing.section.parts}
     are_open = {cut.source.whose[part] for part, is_cut in cut.source.open.items() if is_cut}
     at_plane = _at_plane(session, cut)
-    unhatched = sorted((are_open or cut.source.cut - hatched) & at_plane)
+    # A body of a mesh that has no cut face only touches the plane.
+    bare = are_open if isinstance(cut.source.source, MeshSource) else cut.source.cut - hatched
+    unhatched = sorted(bare & at_plane)
     if cut.planes.touching:
         text = f"the plane of section {name} only touches the model: nothing is taken away."
     elif not cut.source.cut and not hatched and cut.source.through:
         text = f"all parts that the plane of section {name} goes through stay whole: nothing is hatched."
-    elif not cut.source.cut & at_plane and not hatched:
+    elif not unhatched and not hatched:
         text = f"the plane of section {name} goes through no part: nothing is hatched."
     elif unhatched:
         several = f"{len(unhatched)} parts that it cuts, such as" if len(unhatched) > 1 else "it cuts"

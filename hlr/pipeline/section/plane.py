@@ -143,6 +143,17 @@ def _along(camera: Camera, source: Source, name: str) -> tuple[int, Floats]:
     return axis, up[axis]
 
 
+def _rounding(parts: Sequence[PartMesh]) -> Floats:
+    """(3,) how far points that are written as float32, as in STL files, may be off along each axis, model units.
+
+    Zero where a number has more digits than a float32.
+    """
+    points = np.concatenate([part.points for part in parts])
+    if not len(points) or (points != points.astype(np.float32)).any():
+        return np.zeros(3)
+    return np.asarray(np.spacing(np.abs(points).max(axis=0).astype(np.float32)), float)
+
+
 def _plane_of(
     place: SectionPlace,
     view: View,
@@ -156,7 +167,7 @@ def _plane_of(
     normal, up = np.array(camera.direction), np.array(source.frame.up)
     given = None if place is True else np.array(_point(place, view)) / unit @ up
     at = 0.5 * (low + high) if given is None else float(given @ normal)
-    near = nearness(bounds, is_brep(source.kind))
+    near = nearness(bounds, is_brep(source.kind)) + float(np.abs(normal) @ _rounding(meshed))
     name = directed(view)[0]
     if not low - near <= at <= high + near or at <= low + near:
         what = "misses the model" if at > high or at < low - near else "leaves nothing of the model"

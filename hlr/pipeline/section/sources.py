@@ -198,7 +198,7 @@ class _PrototypeCutter:
 
     def __init__(self, source: BrepSource, planes: Planes) -> None:
         self._shapes = source.prototypes.shapes
-        self._planes = planes.stepped()
+        self._planes, self._near = planes.stepped(), planes.near
         self._size = float(np.linalg.norm(np.subtract(*source.bounds())))
         self._solids: dict[int, Any] = {}
         self._found: dict[tuple[float, ...], tuple[Any | None, bool] | UncuttableError] = {}
@@ -209,6 +209,7 @@ class _PrototypeCutter:
         An error where OpenCASCADE cannot cut it.
         """
         from hlr.source.cad.closing import as_solid
+        from hlr.source.cad.half_space import on_faces
 
         planes = self._planes.before(part.transform)
         ends = np.concatenate([planes.levels, planes.steps]) / self._size
@@ -216,6 +217,8 @@ class _PrototypeCutter:
         key = part.prototype, *np.round([*turned, *ends], SAME).tolist()
         if key not in self._found:
             whole = self._shapes[part.prototype]
+            scale = float(np.linalg.norm(part.transform[:3, :3].T @ self._planes.normal))
+            planes = on_faces(planes, whole, self._near / scale)
             if part.prototype not in self._solids:
                 self._solids[part.prototype] = as_solid(whole, self._size)
             solid = self._solids[part.prototype]

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,9 @@ from hlr.source.stepped import Stepped
 
 NEAR = 1e-9
 """Of the size of a shape: a plane that comes no deeper into it than this only touches it."""
+
+PARALLEL = 1e-9
+"""Sine of the angle of two planes that count as parallel."""
 
 LOOSER = (1e-8, 1e-7, 1e-6)
 """Of the size of a shape: how much looser it is cut again where it was not cut as it should."""
@@ -71,6 +75,31 @@ def cut_at(leaves: Sequence[Leaf], planes: Stepped, origin: Floats) -> list[Leaf
             shape = pieces[0] if len(pieces) == 1 else make_compound(pieces)
             found.append(Leaf(shape, leaf.name, leaf.color, opacity=leaf.opacity, above=leaf.above))
     return found
+
+
+def on_faces(planes: Stepped, shape: Any, near: float) -> Stepped:
+    """The planes, each put on the nearest flat face of a shape that it would run beside, no farther off than `near`.
+
+    A film would be left between the two, too thin to be told from either.
+    """
+    from OCP.BRepAdaptor import BRepAdaptor_Surface
+    from OCP.GeomAbs import GeomAbs_SurfaceType
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+    from OCP.TopoDS import TopoDS
+
+    found = []
+    for face in sub_shapes(shape, Kind.TopAbs_FACE):
+        surface = BRepAdaptor_Surface(TopoDS.Face(face))
+        if surface.GetType() == GeomAbs_SurfaceType.GeomAbs_Plane:
+            axis = surface.Plane().Axis()
+            way, at = axis.Direction(), axis.Location()
+            if float(np.linalg.norm(np.cross([way.X(), way.Y(), way.Z()], planes.normal))) <= PARALLEL:
+                found.append(float(np.array([at.X(), at.Y(), at.Z()]) @ planes.normal))
+    if not found:
+        return planes
+    heights = np.array(found)
+    nearest = heights[np.abs(heights - planes.levels[:, None]).argmin(axis=1)]
+    return replace(planes, levels=np.where(np.abs(planes.levels - nearest) <= near, nearest, planes.levels))
 
 
 def _cut(shape: Any, planes: Stepped, origin: Floats, name: str) -> Any | None:

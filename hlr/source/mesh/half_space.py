@@ -13,6 +13,9 @@ from hlr.source.mesh.closed import of_closed_bodies
 from hlr.source.model import PartMesh
 from hlr.source.stepped import Stepped
 
+BEYOND = np.array([[2.19, 3.37, 4.73], [2.83, 3.11, 5.27]])
+"""How much farther than a body blocks reach, down and up each axis: no diagonal of their sides meets its corners."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MeshPiece:
@@ -54,8 +57,7 @@ def cut_mesh(part: PartMesh, planes: Stepped, near: float) -> list[MeshPiece]:
             continue
         low, high = planes.reach(points[triangles[rows]].reshape(-1, 3))
         if body is not None and is_closed:
-            left = _without(body, planes, float(np.abs(points).max())).to_mesh64()
-            found = np.asarray(left.vert_properties)[:, :3], np.asarray(left.tri_verts).astype(np.int32)
+            found = _without(body, points, outward[closed], planes, near)
         else:
             found = clipped(points, triangles[rows], planes, near)
         if len(found[1]):
@@ -63,21 +65,42 @@ def cut_mesh(part: PartMesh, planes: Stepped, near: float) -> list[MeshPiece]:
     return pieces
 
 
-def _without(body: Any, planes: Stepped, size: float) -> Any:
-    """A body without what lies before planes. size: how far it reaches from the origin along each axis, at most."""
-    if not len(planes.steps):
-        return body.trim_by_plane((-planes.normal).tolist(), -float(planes.levels[0]))
+def _without(body: Any, points: Floats, triangles: Ints, planes: Stepped, near: float) -> tuple[Floats, Ints]:
+    """A body, which points (n, 3) and triangles (m, 3) close, without what lies before planes.
+
+    It is cut in a frame in which the planes are levels of z, the first of them zero, and what counts as on one is put
+    on it. Numbers that are a little off, as in STL files, would leave a film before a face that lies on the plane.
+    """
     from manifold3d import Manifold
 
-    far = 2.0 * size
-    axes = np.stack([planes.along, np.cross(planes.normal, planes.along), planes.normal], axis=1)
+    axes = np.stack([planes.along, np.cross(planes.normal, planes.along), planes.normal])
+    origin = float(planes.levels[0]) * planes.normal
+    own = (points - origin) @ axes.T
+    put, far = own.copy(), float(np.abs(own).max())
+    for column, ends in ((0, planes.steps), (2, planes.levels - planes.levels[0])):
+        for end in ends.tolist():
+            put[np.abs(own[:, column] - end) <= near, column] = end
+    moved = _body(put, triangles)[0] if (put != own).any() else None
+    body = moved or body.transform(np.column_stack([axes, -axes @ origin]))
+    behind = Manifold()
     for begin, end, level in planes.blocks():
-        low = np.array([max(begin, -far), -far, level])
-        high = np.array([min(end, far), far, far])
+        low = np.maximum([begin, -np.inf, -np.inf], -far * BEYOND[0])
+        high = np.minimum([end, np.inf, level - planes.levels[0]], far * BEYOND[1])
         if (high > low).all():
-            block = Manifold.cube((high - low).tolist()).transform(np.column_stack([axes, axes @ low]))
-            body = body - block
-    return body
+            behind += _block(low, high)
+    # Unlike a difference, this keeps the border between a face that lay on a plane and the cut around it.
+    body = body ^ behind
+    left = body.to_mesh64()
+    return np.asarray(left.vert_properties)[:, :3] @ axes + origin, np.asarray(left.tri_verts).astype(np.int32)
+
+
+def _block(low: Floats, high: Floats) -> Any:
+    """The block between two corners (3,), whose sides are where they say to the last digit."""
+    from manifold3d import Manifold, Mesh64
+
+    cube = Manifold.cube([1.0, 1.0, 1.0]).to_mesh64()
+    corners = np.where(np.asarray(cube.vert_properties)[:, :3] > 0.5, high, low)
+    return Manifold(Mesh64(corners, np.asarray(cube.tri_verts).astype(np.uint64)))
 
 
 def _body(points: Floats, triangles: Ints) -> tuple[Any | None, Ints]:
