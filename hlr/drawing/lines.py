@@ -12,7 +12,7 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.common.values import LateRecords
 from hlr.drawing.curve import Arc, Bezier, Curve
-from hlr.drawing.line import Bounds, Line
+from hlr.drawing.line import Bounds, Line, Points
 from hlr.tables.line_classes import LINE_CLASSES, names
 
 POLYLINE, STRAIGHT, ARC, QUADRATIC, CUBIC = range(5)
@@ -63,6 +63,40 @@ def divided(lines: Sequence[Line], sets: npt.NDArray[np.int64], count: int) -> l
         return [whole]
     columns = whole.columns()
     own = sets[columns["ties"][:, 0]] if len(whole) else np.zeros(0, np.int64)
+    return _divided(columns, own, count)
+
+
+def shifted_together(views: Sequence[tuple[Sequence[Line], Points, int]], apart: str) -> tuple[Lines, Lines]:
+    """The lines of several views on one page: those of other kinds than `apart`, and those of that kind.
+
+    views: lines, by how many mm (2,) they are shifted, and what is added to the numbers of their parts
+    """
+    each = [_shifted(*view) for view in views]
+    whole = {name: np.concatenate([columns[name] for columns in each]) for name in each[0]}
+    for name in ("offsets", "data_offsets"):
+        lengths = np.concatenate([np.diff(columns[name]) for columns in each])
+        whole[name] = np.concatenate([[0], np.cumsum(lengths)])
+    own = (whole["kind"] == LINE_CLASSES[apart].number).astype(np.int64)
+    others, those = _divided(whole, own, 2)
+    return Lines(others), Lines(those)
+
+
+def _shifted(lines: Sequence[Line], shift: Points, first_part: int) -> dict[str, Any]:
+    columns = dict(held(lines).columns())
+    ties, form, lengths = columns["ties"], columns["form"], np.diff(columns["data_offsets"])
+    known = np.array([True, False, False, True]) & (ties >= 0)
+    columns["ties"] = (ties + first_part * known).astype(np.int32)
+    columns["points"] = columns["points"] + shift
+    # Of an arc the centre moves, of Bezier curves all points.
+    moving = np.where(form == ARC, 2, np.where(form > ARC, lengths, 0))
+    place = np.arange(len(columns["data"])) - np.repeat(columns["data_offsets"][:-1], lengths)
+    columns["data"] = columns["data"] + np.where(place < np.repeat(moving, lengths), shift[place % 2], 0.0)
+    columns["form"] = np.where(form == STRAIGHT, POLYLINE, form).astype(np.uint8)
+    return columns
+
+
+def _divided(columns: dict[str, Any], own: npt.NDArray[np.int64], count: int) -> list[_kernel.Lines]:
+    """The lines of each of `count` sets, in their order; own: the set of each line."""
     order = np.argsort(own, kind="stable")
     ends = np.searchsorted(own[order], np.arange(count + 1))
     for name in ("kind", "visible", "ties", "form"):

@@ -15,8 +15,8 @@ import numpy as np
 from hlr.common.numbers import typed
 from hlr.common.types import Floats, Progress
 from hlr.drawing.drawing import Drawing, DrawnPart, DrawnView
-from hlr.drawing.line import Line
-from hlr.drawing.moved import moved
+from hlr.drawing.line import Line, Points
+from hlr.drawing.lines import shifted_together
 from hlr.drawing.notes import Note, of_each_view
 from hlr.drawing.page import Page
 from hlr.drawing.scale import ratio
@@ -266,21 +266,19 @@ def _together(
 ) -> Drawing:
     """One drawing of all views. farthest: as of `_Views.spread`."""
     placed = _placed(drawings, sizes, found, asked)
-    lines: list[Line] = []
-    hatches: list[Line] = []
+    views: list[tuple[Sequence[Line], Points, int]] = []
     parts: list[DrawnPart] = []
     counters = Counter[str]()
     for each in placed:
-        first, stay = len(parts), np.eye(2)
-        for line in each.drawing.lines:
-            # Hatches are close together, and no reason for thinner pens.
-            (hatches if line.kind == "hatch" else lines).append(moved(line, stay, each.shift, first))
+        views.append((each.drawing.lines, each.shift, len(parts)))
         parts += [replace(part, name=f"{each.name}/{part.name}") for part in each.drawing.parts]
         counters.update(each.drawing.counters)
+    # Hatches are close together, and no reason for thinner pens.
+    lines, hatches = shifted_together(views, apart="hatch")
     paper, style = found.room.paper, style_of(options.style)
     coarsest = max((drawing.accuracy for drawing in drawings), key=lambda accuracy: accuracy.used)
     room = (paper.width, paper.height)
-    shown = legible(tuple(lines), found.scale, coarsest.used, style, room, options, Planner(drawing_effects(), options))
+    shown = legible(lines, found.scale, coarsest.used, style, room, options, Planner(drawing_effects(), options))
     marks: dict[str, SectionMark] = {}
     marking: list[Note] = []
     if options.section is not None:
@@ -297,7 +295,7 @@ def _together(
         unit=drawings[0].unit,
         up_axis=drawings[0].up_axis,
         parts=tuple(parts),
-        lines=(*shown.lines, *hatches) if hatches else shown.lines,
+        lines=(*shown.lines, *hatches) if len(hatches) else shown.lines,
         notes=tuple(dict.fromkeys((*_notes(drawings), *shown.notes, *printed.notes(), *marking))),
         counters=dict(counters),
         page=Page(paper.name, paper.width, paper.height, 0.0, 0.0),

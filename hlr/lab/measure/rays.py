@@ -11,11 +11,16 @@ hide it or not.
          o o o        seen from the viewer: what covers five of nine rays
         o  x  o ####  leaves the sample undecided
          o o o #####
+
+Rays beside a line may run into the very face on which it lies, where that rises toward the viewer. So nine blocked
+rays count only where the line's own part blocks all of them, or other parts all of them. Where its own part blocks
+those on one side and another part those on the other, the line is where the two touch, as the edge of a groove beside
+the outline of a ball in it: a shift of the ball of less than the accuracy decides.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -74,6 +79,8 @@ class Caster:
 
     def verdict(self, points: Floats) -> npt.NDArray[np.int8]:
         """(n,) verdict of the nine rays on points (n, 3) of the model: DISAGREE, BLOCKED or FREE."""
+        if not len(self.triangles):
+            return np.full(len(points), FREE, np.int8)
         angle = np.arange(RING) * (2.0 * np.pi / RING)
         ring = np.concatenate(
             [np.zeros((1, 3)), np.outer(np.cos(angle), self.right) + np.outer(np.sin(angle), self.up)]
@@ -82,6 +89,16 @@ class Caster:
         starts = points[:, None, :] + ring[None] * radius[:, None, None]
         count = self._blocked(points, starts, self.depth).sum(axis=1)
         return np.where(count == RING + 1, BLOCKED, np.where(count == 0, FREE, DISAGREE)).astype(np.int8)
+
+    def blocked_by_one_side(self, points: Floats, part: Ints) -> npt.NDArray[np.bool_]:
+        """(n,) whether all nine rays from points (n, 3) are blocked by the part (n,) of each, or all by other parts."""
+        blocked = np.zeros(len(points), bool)
+        for own in np.unique(part).tolist():
+            here = np.flatnonzero(part == own)
+            for side in (self.part == own, self.part != own):
+                of_side = replace(self, triangles=self.triangles[side], part=self.part[side])
+                blocked[here] |= of_side.verdict(points[here]) == BLOCKED
+        return blocked
 
     def touched(self, points: Floats) -> npt.NDArray[np.bool_]:
         """(n,) whether anything covers points (n, 3), even by less than the contact tolerance."""
@@ -149,6 +166,9 @@ def contradicted(
     said = caster.verdict(at)
     visible = np.array([x.visible for x in drawing.lines], bool)[line]
     wrong = np.asarray(np.where(visible, said == BLOCKED, said == FREE))
+    covered = np.flatnonzero(wrong & visible)
+    part = np.array([x.part for x in drawing.lines], np.int32)[line]
+    wrong[covered] = caster.blocked_by_one_side(at[covered], part[covered])
     # A line covered by less than the contact tolerance may be drawn either way.
     doubtful = np.flatnonzero(wrong & ~visible)
     wrong[doubtful] &= ~caster.touched(at[doubtful])
