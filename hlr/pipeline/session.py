@@ -40,6 +40,7 @@ from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options, Request, View
 from hlr.scene.build import build
 from hlr.scene.scene import Scene
+from hlr.scene.scene_parts import OnCut
 from hlr.source.bounds import diagonal
 from hlr.source.model import Appearance, PartMesh, Source, Tessellation
 from hlr.source.selection import open_selected
@@ -83,13 +84,14 @@ class Session:
         options: Options,
         progress: Progress | None = None,
         placing: Placing = place,
+        on_cut: OnCut | None = None,
     ) -> None:
-        """source: whatever `hlr.source.open_source` takes; views, options: checked.
+        """source: whatever `hlr.source.open_source` takes; views, options: checked; on_cut: of a section.
 
         Raises SourceError, ViewError, OptionError.
         """
         started = perf_counter()
-        self.options = options
+        self.options, self._on_cut = options, on_cut
         self.clock: Clock = {}
         self.progress = progress or (lambda _stage, _done: None)
         self.progress("source", 0.0)
@@ -113,7 +115,7 @@ class Session:
         meshed = self.source.mesh(coarser * deflection, angle, self.progress)
         started = lap(self.clock, "tessellate", started)
         self.progress("scene", 0.0)
-        scene = build(meshed, self.options.crease, deflection, planner)
+        scene = build(meshed, self.options.crease, deflection, planner, self._on_cut)
         lap(self.clock, "scene", started)
         return scene, meshed
 

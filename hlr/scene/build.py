@@ -19,7 +19,7 @@ from hlr.scene.duplicates import without_duplicates
 from hlr.scene.intersection_lines import intersection_lines
 from hlr.scene.needles import reliable_normals
 from hlr.scene.scene import Scene, TrueSurfaces
-from hlr.scene.scene_parts import scene_parts
+from hlr.scene.scene_parts import OnCut, scene_parts
 from hlr.scene.spindle_tori import self_intersecting_tori
 from hlr.scene.stitching import stitch_borders
 from hlr.scene.walks import crease_walks
@@ -30,10 +30,16 @@ from hlr.source.part_meshes import PartMeshes, combine_parts
 from hlr.tables.line_classes import INTERIOR, EdgeClass
 
 
-def build(meshed: Tessellation, crease: float, deflection: float, planner: Planner | None = None) -> Scene:
+def build(
+    meshed: Tessellation,
+    crease: float,
+    deflection: float,
+    planner: Planner | None = None,
+    on_cut: OnCut | None = None,
+) -> Scene:
     """The scene of all parts. crease: degrees, for parts without B-rep; deflection: what they were meshed with.
 
-    planner: decides what is looked for at all. Raises SourceError where nothing is left to draw.
+    planner: decides what is looked for at all; on_cut: of a section. Raises SourceError where nothing is left to draw.
     """
     plan = planner or Planner(drawing_effects(), Options())
     whole, mesh, doubled = _repaired(combine_parts(meshed.parts), plan)
@@ -64,7 +70,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
     plan.spent("intersection search", perf_counter() - begin, clash_tests=0 if met is None else met.tests)
     true, intersections = _true_surfaces(whole, found), None
     crossed = set() if met is None else self_intersecting_parts(met, group_part)
-    parts = scene_parts(whole, doubled, found, mesh.offsets, drawn, crossed, meshed.surface_parts)
+    parts = scene_parts(whole, doubled, found, mesh.offsets, drawn, crossed, meshed.surface_parts, on_cut)
     groups = groups.unsound(found.welded if met is None else met.through | found.welded)
 
     if len(found.loose):

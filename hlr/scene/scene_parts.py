@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
 from hlr._kernel import MeshScene, PartReports
 from hlr.common.types import Color, Floats, Ints
@@ -15,6 +16,9 @@ from hlr.source.part_meshes import PartLabel, PartMeshes
 
 if TYPE_CHECKING:
     from hlr.source.cad.parts import Part
+
+OnCut = Callable[[Floats], npt.NDArray[np.bool_]]
+"""Which points (n, 3) lie on the plane of a section."""
 
 FLAT = 1e-7
 """What lies off a plane by no more than this share of its size lies in it."""
@@ -105,12 +109,13 @@ def scene_parts(
     drawn: list[int] | None,
     crossed: Collection[int],
     surface_parts: Callable[[], Collection[str]],
+    on_cut: OnCut | None = None,
 ) -> SceneParts:
     """All parts with their defects.
 
     doubled: triangles already left out as duplicates; offsets: of the triangles at each mesh edge; drawn: edges of
     parts without B-rep, None where there are none; crossed: numbers of parts whose surfaces pass through one another;
-    surface_parts: the names of parts that are faces outside all solids.
+    surface_parts: the names of parts that are faces outside all solids; on_cut: None where no plane has cut them.
     """
     reports = found.reports()
     wrong = {*reports.suspects(), *crossed, *[i for i, count in enumerate(doubled) if count]}
@@ -122,6 +127,7 @@ def scene_parts(
     if whole.tables.brep_parts and any([counts[0] for _, _, counts in counted.values()]):
         bordering = _border_edges(found, offsets, len(reports))
     defects_of = {}
+    touching = _touching_at_cut(whole, found, offsets, on_cut)
     for i, (brep, _, (border, crowded, turned, flat, _, outside_in, _, _)) in counted.items():
         of_surfaces, open_edges = whole.labels[i].name in of_faces, 0
         defects = []
@@ -133,8 +139,8 @@ def scene_parts(
             shown = bordering[i] or border
             open_edges = shown if of_surfaces else 0
             defects.append("open: " + _count(shown, "border edge"))
-        if crowded:
-            defects.append(_count(crowded, "non-manifold edge"))
+        if crowded > touching[i]:
+            defects.append(_count(crowded - touching[i], "non-manifold edge"))
         if turned:
             defects.append(_count(turned, "edge") + " between faces of opposite orientation")
         # How loose faces are turned says nothing: there is no inside yet.
@@ -174,6 +180,21 @@ def _border_edges(found: MeshScene, offsets: Ints, parts: int) -> list[int]:
     edges = np.unique(walks.part[ends].astype(np.int64) << 32 | walks.index[ends])
     shown: list[int] = np.bincount(edges >> 32, minlength=parts).tolist()
     return shown
+
+
+def _touching_at_cut(whole: PartMeshes, found: MeshScene, offsets: Ints, on_cut: OnCut | None) -> list[int]:
+    """At how many edges each part touches itself where it is cut: faces of the cut lie on both sides of them.
+
+    A plane that is tangent to a bore leaves such a body of a sound one.
+    """
+    if on_cut is None:
+        return [0] * len(whole.labels)
+    points, four = whole.tables.points, np.flatnonzero(np.diff(offsets) == 4)
+    four = four[on_cut(points[found.mesh.edges[four].ravel()]).reshape(-1, 2).all(axis=1)]
+    around = found.triangles[found.mesh.incident[offsets[four][:, None] + np.arange(4)]]
+    made = on_cut(points[around.ravel()]).reshape(-1, 4, 3).all(axis=2).sum(axis=1) >= 2
+    counts: list[int] = np.bincount(found.edge_part[four[made]], minlength=len(whole.labels)).tolist()
+    return counts
 
 
 def _is_flat(whole: PartMeshes, part: int) -> bool:

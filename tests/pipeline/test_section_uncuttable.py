@@ -99,3 +99,21 @@ def test_views_and_pages_say_it_of_each_section():
     assert [note.text for note in early] == [note.text for each in drawings for note in not_cut(each)]
     page = hlr.draw_arranged(row(cube(), bare()), options=options)
     assert [note.text.partition(":")[0] for note in not_cut(page)] == ["section front", "section top"]
+
+
+@pytest.mark.parametrize("kinds", [["Compound"], ["Compound", "Shell"]])
+def test_faces_that_cannot_be_cut_together_are_cut_shell_by_shell_or_each_alone(monkeypatch, kinds):
+    open_box = cq.Shell.makeShell(cube().faces("not >Z").vals())
+    sheets = cq.Compound.makeCompound([open_box, *cube().translate((30, 0, 0)).faces("not >Z").vals()])
+    wanted = outlines_of(section(sheets))
+    together = half_space._cut
+
+    def cut(shape, planes, origin, name):
+        if cq.Shape.cast(shape).ShapeType() in kinds:
+            raise half_space.UncuttableError(name, "its shape is not sound", "move the plane a little")
+        return together(shape, planes, origin, name)
+
+    monkeypatch.setattr(half_space, "_cut", cut)
+    drawing = section(sheets)
+    assert not not_cut(drawing)
+    assert outlines_of(drawing) == wanted

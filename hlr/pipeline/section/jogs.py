@@ -18,11 +18,16 @@ from hlr.pipeline.section.plane import Planes
 CLOSE = 1e-6
 """Of the size of a drawing: lines lie so close to the step that has made them."""
 
+SHORT = 100.0
+"""Times `CLOSE`: no part ends at a step along so short a way. Where its border crosses the step, its sides differ."""
+
 
 def without_jogs(
     drawing: Drawing, planes: Planes, cut: Sequence[tuple[str, list[Floats]]], whose: Mapping[str, str]
 ) -> Drawing:
     """A drawing without the edges that steps have made where a part is cut on both sides of them.
+
+    Where another part ends at the step, on the edge of the first, the two are one line of the drawing: it stays.
 
     cut: of each cut face the name of the whole part, and its loops (k, 2), millimetres on paper
     whose: the whole part of each part, by name
@@ -36,15 +41,39 @@ def without_jogs(
     for step, (a, b) in zip(planes.steps, pairwise(planes.planes), strict=True):
         x = turned * step * drawing.scale * drawing.unit - drawing.origin[0]
         levels = sorted((a.height, b.height))
+        goes_on = _going_on(x, close, sides)
         kept: list[Line] = []
         for line in lines:
-            of_part = sides.get(owner[line.part]) if line.kind == "sharp" else None
-            on_step = of_part is not None and _is_on_step(line, x, close, levels, planes)
-            kept += _outside(line, x, close, of_part) if of_part is not None and on_step else [line]
+            gone = goes_on.get(owner[line.part]) if line.kind == "sharp" else None
+            on_step = gone is not None and _is_on_step(line, x, close, levels, planes)
+            kept += _outside(line, x, close, gone) if gone is not None and on_step else [line]
         lines = kept
     removed = len(drawing.lines) - len(lines)
     counters = {**drawing.counters, "lines": drawing.counters.get("lines", 0) - removed}
     return replace(drawing, lines=tuple(lines), counters=counters)
+
+
+def _going_on(x: float, close: float, sides: Mapping[str, Floats]) -> dict[str, Floats]:
+    """Where parts go on across a step and no other part ends at it: pieces (n, 2, 2) of the step, by name.
+
+    x: of the step; sides: of the faces of each part
+    """
+    heights = np.concatenate([np.zeros(0), *(of_part[..., 1].ravel() for of_part in sides.values())])
+    if not len(heights):
+        return {}
+    step = np.array([[[x, heights.min() - close], [x, heights.max() + close]]])
+    shift = np.array([2.0 * close, 0.0])
+    both: dict[str, Floats] = {}
+    ends: dict[str, Floats] = {}
+    for name, of_part in sides.items():
+        left, right = (inside(step + way, of_part, winding=True) - way for way in (-shift, shift))
+        both[name] = inside(right - shift, of_part, winding=True) + shift
+        one = np.concatenate([_without(left, right, close), _without(right, left, close)])
+        ends[name] = one[np.abs(one[:, 1, 1] - one[:, 0, 1]) > SHORT * close]
+    for name, own in both.items():
+        others = [pieces for other, pieces in ends.items() if other != name]
+        both[name] = _without(own, np.concatenate([np.zeros((0, 2, 2)), *others]), close)
+    return {name: own for name, own in both.items() if len(own)}
 
 
 def _is_on_step(line: Line, x: float, close: float, levels: Sequence[float], planes: Planes) -> bool:
@@ -55,18 +84,14 @@ def _is_on_step(line: Line, x: float, close: float, levels: Sequence[float], pla
     return bool(heights.min() >= levels[0] - planes.near and heights.max() <= levels[1] + planes.near)
 
 
-def _outside(line: Line, x: float, close: float, sides: Floats) -> list[Line]:
-    """What is left of a line where faces with these sides do not lie on both sides of it."""
+def _outside(line: Line, x: float, close: float, gone: Floats) -> list[Line]:
+    """What is left of a line on a step without these pieces of the step."""
     ends = np.array([line.points[0], line.points[-1]])
     ends[:, 0] = x
-    shift = np.array([2.0 * close, 0.0])
-    # Both sides: what lies inside to the left, of what lies inside to the right.
-    right = inside((ends + shift)[None], sides, winding=True) - 2.0 * shift
-    both = inside(right, sides, winding=True) + shift
-    if not len(both):
+    lost = inside(ends[None], _as_loops(gone, close), winding=True)
+    if not (np.abs(lost[:, 1, 1] - lost[:, 0, 1]) > 4.0 * close).any():
         return [line]
-    gone = np.stack([both[:, 0], both[:, 1]], axis=1)
-    left = uncovered(ends[None], _as_loops(gone, close))
+    left = _without(ends[None], gone, close)
     share = (left[..., 1] - ends[0, 1]) / (ends[1, 1] - ends[0, 1])
     way = line.points3[-1] - line.points3[0]
     return [
@@ -74,6 +99,11 @@ def _outside(line: Line, x: float, close: float, sides: Floats) -> list[Line]:
         for piece, each in zip(left, share, strict=True)
         if abs(each[1] - each[0]) * np.hypot(*(ends[1] - ends[0])) > 4.0 * close
     ]
+
+
+def _without(pieces: Floats, gone: Floats, close: float) -> Floats:
+    """What is left of upright pieces (n, 2, 2) outside of others, (k, 2, 2)."""
+    return uncovered(pieces, _as_loops(gone, close))
 
 
 def _as_loops(pieces: Floats, close: float) -> Floats:

@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import Any, cast
 
 import numpy as np
+import numpy.typing as npt
 
 from hlr.common.numbers import typed
 from hlr.common.types import Floats
@@ -87,6 +88,10 @@ class Planes:
         normal = np.array(self.normal)
         levels = np.array([np.array(plane.point) @ normal for plane in self.planes])
         return Stepped(normal, np.array(self.along), levels, np.array(self.steps, float))
+
+    def hold(self, points: Floats) -> npt.NDArray[np.bool_]:
+        """Which of points (n, 3) lie on them."""
+        return np.asarray(np.abs(self.stepped().heights(points)) <= self.near)
 
     def corners(self) -> tuple[Vector, ...]:
         """Points on the edges of the planes: of each step one on the plane before it, and one on that behind it."""

@@ -69,8 +69,8 @@ def cut_at(leaves: Sequence[Leaf], planes: Stepped, origin: Floats) -> list[Leaf
     """The same, by planes that may step. origin (3,): a point on the first of them."""
     found = []
     for leaf in leaves:
-        cut = [_cut(piece, planes, origin, leaf.name) for piece, _ in OcctShapes().pieces(leaf.shape)]
-        pieces = [piece for piece in cut if piece is not None]
+        whole = (piece for piece, _ in OcctShapes().pieces(leaf.shape))
+        pieces = [left for piece in whole for left in _cut_pieces(piece, planes, origin, leaf.name)]
         if pieces:
             shape = pieces[0] if len(pieces) == 1 else make_compound(pieces)
             found.append(Leaf(shape, leaf.name, leaf.color, opacity=leaf.opacity, above=leaf.above))
@@ -100,6 +100,22 @@ def on_faces(planes: Stepped, shape: Any, near: float) -> Stepped:
     heights = np.array(found)
     nearest = heights[np.abs(heights - planes.levels[:, None]).argmin(axis=1)]
     return replace(planes, levels=np.where(np.abs(planes.levels - nearest) <= near, nearest, planes.levels))
+
+
+def _cut_pieces(shape: Any, planes: Stepped, origin: Floats, name: str) -> list[Any]:
+    """What is left of a shape. Faces outside solids that cannot be cut together are cut by shells, or each alone."""
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+    try:
+        left = _cut(shape, planes, origin, name)
+        return [] if left is None else [left]
+    except UncuttableError:
+        if shape.ShapeType() in (Kind.TopAbs_SOLID, Kind.TopAbs_FACE, Kind.TopAbs_EDGE):
+            raise
+    shells = [] if shape.ShapeType() == Kind.TopAbs_SHELL else sub_shapes(shape, Kind.TopAbs_SHELL)
+    faces = sub_shapes(shape, Kind.TopAbs_FACE, Kind.TopAbs_SHELL if shells else None)
+    edges = sub_shapes(shape, Kind.TopAbs_EDGE, Kind.TopAbs_FACE)
+    return [left for part in (*shells, *faces, *edges) for left in _cut_pieces(part, planes, origin, name)]
 
 
 def _cut(shape: Any, planes: Stepped, origin: Floats, name: str) -> Any | None:

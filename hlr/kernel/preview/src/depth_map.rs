@@ -36,7 +36,7 @@ pub fn depth_map(
         &sampling,
         &solid,
         &mut out,
-        nothing,
+        None,
         stopped,
         || (),
         |(), filled, rows| {

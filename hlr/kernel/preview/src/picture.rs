@@ -33,7 +33,7 @@ pub fn picture(
         sampling,
         scene.model.transparent,
         out,
-        nothing,
+        Some(nothing),
         stopped,
         painter,
         |painter, filled, rows| {

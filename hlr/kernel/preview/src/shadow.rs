@@ -84,7 +84,7 @@ impl Shadow {
             &sampling,
             model.transparent,
             &mut found,
-            nothing,
+            None,
             stopped,
             Vec::new,
             |over: &mut Vec<Layer>, filled, rows| {

@@ -27,7 +27,7 @@ pub struct Filled<'a> {
 }
 
 /// Fills all tiles of a picture of `size` that `space.chunks` reach. `show` writes a tile into the rows of its strip,
-/// which are `size[0]` wide and filled with `nothing`, and may keep data in a `scratch` of its thread. `transparent`:
+/// which are `size[0]` wide and filled with `nothing` (None: as they were), and may keep data in a `scratch` of its thread. `transparent`:
 /// per triangle. False when stopped.
 #[allow(clippy::too_many_arguments)] // what is drawn, where to, and how
 pub fn each_tile<P: Copy + Send + Sync, S>(
@@ -36,7 +36,7 @@ pub fn each_tile<P: Copy + Send + Sync, S>(
     sampling: &Sampling,
     transparent: &[bool],
     out: &mut [P],
-    nothing: P,
+    nothing: Option<P>,
     stopped: &(dyn Fn() -> bool + Sync),
     scratch: impl Fn() -> S + Sync + Send,
     show: impl Fn(&mut S, &Filled, &mut [P]) + Sync,
@@ -56,7 +56,9 @@ pub fn each_tile<P: Copy + Send + Sync, S>(
             }
             // Filled by the thread that goes on with the rows: the system assigns the pages of a new picture at the
             // first write.
-            out.fill(nothing);
+            if let Some(nothing) = nothing {
+                out.fill(nothing);
+            }
             for column in 0..tiles[0] {
                 solid.clear();
                 clear.clear();

@@ -15,7 +15,7 @@ use crate::tessellate::MeshedFace;
 /// Regions are numbered from 0.
 pub struct Regions {
     pub count: u32,
-    /// By corner of the mesh; None for those that are not below the plane.
+    /// By point of the mesh; None for those that are no corners below the plane.
     of_corner: Vec<Option<u32>>,
     /// By edge, number of the chord, and whether the border runs along it in its sense.
     of_chord: FxHashMap<Chord, u32>,
@@ -31,7 +31,11 @@ pub struct Regions {
 impl Regions {
     pub fn new(face: &Face, found: &MeshedFace, border: &Border, plane: &Plane) -> Regions {
         let mesh = &found.mesh;
-        let below: Vec<bool> = mesh.points.iter().map(|p| plane.height(p) < -plane.near).collect();
+        // A point of the border where it touches itself may be the corner of no triangle, as another stands in for it.
+        let mut below = vec![false; mesh.points.len()];
+        for &i in mesh.triangles.iter().flatten() {
+            below[i as usize] = plane.height(&mesh.points[i as usize]) < -plane.near;
+        }
         let is_below = |i: u32| below[i as usize];
         let mut sets = Sets::new(below.len());
         let first_at_pole = poles(face, found, border.edges);

@@ -5,6 +5,7 @@
 //! between bands.
 
 use super::chains::Chain;
+use super::runs::Runs;
 use super::samples::Grid;
 use super::tone::{Gradient, Tones};
 
@@ -21,11 +22,18 @@ pub struct Areas {
     pub triangle: Vec<u32>,
 }
 
-pub fn collect(grid: &Grid, tones: &Tones, cells: &[u32], chains: &[Chain], borders: Vec<Vec<Point>>) -> Areas {
+/// `parts`: the runs of the cells.
+pub fn collect(
+    grid: &Grid,
+    tones: &Tones,
+    (cells, parts): (&[u32], &Runs),
+    chains: &[Chain],
+    borders: Vec<Vec<Point>>,
+) -> Areas {
     let count = grid.first.len();
     let mut large = vec![0usize; count];
-    for &c in cells {
-        large[tones.face[c as usize] as usize] += 1;
+    for places in (0..parts.count()).map(|k| parts.places(k)) {
+        large[tones.face[cells[places.start] as usize] as usize] += places.len();
     }
     let mut of_face: Vec<Vec<u32>> = vec![Vec::new(); count];
     for (k, chain) in chains.iter().enumerate() {

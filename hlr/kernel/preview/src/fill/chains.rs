@@ -8,6 +8,8 @@
 //!   3 3 3 | 2 2
 //! ```
 
+use super::runs::Runs;
+
 /// A crack: the two pixels that it lies between, by column and row; one of them may lie outside of the map.
 pub type Crack = [[i32; 2]; 2];
 
@@ -54,16 +56,21 @@ impl Map<'_> {
     }
 }
 
-/// `cells`: areas row by row; outside of the map lies area 0, nothing.
-pub fn chains(cells: &[u32], [width, height]: [usize; 2]) -> Vec<Chain> {
+/// `cells`: areas row by row; outside of the map lies area 0, nothing. `runs`: stretches of one area in its rows.
+pub fn chains(cells: &[u32], runs: &Runs, [width, height]: [usize; 2]) -> Vec<Chain> {
     let map = Map { cells, width, height };
     // Cracks already walked: to the right of a corner, and down from it.
     let mut walked = vec![0u8; (width + 1) * (height + 1)];
     let mut out = Vec::new();
     for only_nodes in [true, false] {
-        for y in 0..=height as i32 {
-            for x in 0..=width as i32 {
-                let at = [x, y];
+        for y in 0..=height {
+            // A node lies where a run ends, and so does the first corner of a chain without nodes, from above.
+            let rows = y.saturating_sub(1)..(y + 1).min(height);
+            let mut ends: Vec<usize> = rows.flat_map(|row| runs.columns(row)).chain([width]).collect();
+            ends.sort_unstable();
+            ends.dedup();
+            for x in ends {
+                let at = [x as i32, y as i32];
                 let count = map.ways(at);
                 if count == 0 || (only_nodes && count == 2) {
                     continue;
@@ -112,9 +119,13 @@ fn walk(map: &Map, walked: &mut [u8], from: [i32; 2], way: usize, open: bool) ->
 mod tests {
     use super::*;
 
+    fn found(cells: &[u32], size: [usize; 2]) -> Vec<Chain> {
+        chains(cells, &Runs::new(cells, size[0], u32::eq), size)
+    }
+
     #[test]
     fn three_areas_meet_in_two_nodes() {
-        let found = chains(&[1, 1, 2, 2], [4, 1]);
+        let found = found(&[1, 1, 2, 2], [4, 1]);
         assert_eq!(found.len(), 3);
         assert!(found.iter().all(|c| c.ends.is_some()));
         assert_eq!(found.iter().map(|c| c.cracks.len()).sum::<usize>(), 5 + 5 + 1);
@@ -122,7 +133,7 @@ mod tests {
 
     #[test]
     fn an_island_is_one_closed_chain() {
-        let found = chains(&[0, 0, 0, 0, 7, 0, 0, 0, 0], [3, 3]);
+        let found = found(&[0, 0, 0, 0, 7, 0, 0, 0, 0], [3, 3]);
         assert_eq!(found.len(), 1);
         assert!(found[0].ends.is_none());
         assert_eq!(found[0].cracks.len(), 4);

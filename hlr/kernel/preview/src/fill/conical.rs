@@ -10,8 +10,6 @@ use hlr_exact::elementary::{atan2, hypot};
 
 /// Of 255: the greatest error of a fan, on the whole and nearly everywhere. The facets of a cone's mesh cause as much.
 const OFF: [f32; 2] = [1.5, 5.0];
-/// Number of points on which centres are tried.
-const TRIED: usize = 1500;
 /// Number of slices around the centre.
 const SLICES: usize = 128;
 /// Share of a slice's mean number of points: slices with fewer are ignored.
@@ -32,15 +30,13 @@ pub struct Fan {
 type Tone = ([f64; 2], f32);
 
 impl Fan {
-    /// The fan of a face's points; None where their light does not form one.
-    pub fn find(grid: &Grid, points: &[u32], face: u32) -> Option<Fan> {
-        let step = (points.len() / TRIED).max(1) | 1;
-        let tried: Vec<u32> = points.iter().step_by(step).copied().collect();
-        let points: Vec<Tone> = tried.iter().map(|&p| (place(grid, p), grid.samples[p as usize].tone)).collect();
+    /// The fan of a face, from some of its points; None where their light does not form one.
+    pub fn find(grid: &Grid, tried: &[usize], face: u32) -> Option<Fan> {
+        let points: Vec<Tone> = tried.iter().map(|&p| (place(grid, p), grid.samples[p].tone)).collect();
         if points.len() < 64 {
             return None;
         }
-        let mut centre = rough(grid, &tried, face)?;
+        let mut centre = rough(grid, tried, face)?;
         let (low, high) = points.iter().fold(([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]), |(l, h), (p, _)| {
             ([l[0].min(p[0]), l[1].min(p[1])], [h[0].max(p[0]), h[1].max(p[1])])
         });
@@ -81,22 +77,22 @@ impl Fan {
     }
 }
 
-pub fn place(grid: &Grid, p: u32) -> [f64; 2] {
+pub fn place(grid: &Grid, p: usize) -> [f64; 2] {
     let width = grid.size[0];
-    [(p as usize % width) as f64 + 0.5, (p as usize / width) as f64 + 0.5]
+    [(p % width) as f64 + 0.5, (p / width) as f64 + 0.5]
 }
 
 /// Where lines of equal light meet, by least squares; None where they run side by side.
-fn rough(grid: &Grid, tried: &[u32], face: u32) -> Option<[f64; 2]> {
+fn rough(grid: &Grid, tried: &[usize], face: u32) -> Option<[f64; 2]> {
     let [width, height] = grid.size;
     let (mut xx, mut xy, mut yy, mut x, mut y) = (0.0, 0.0, 0.0, 0.0, 0.0);
     for &p in tried {
-        let (i, j) = (p as usize % width, p as usize / width);
+        let (i, j) = (p % width, p / width);
         if i < REACH || j < REACH || i + REACH >= width || j + REACH >= height {
             continue;
         }
         let around = [[i - REACH, j], [i + REACH, j], [i, j - REACH], [i, j + REACH]].map(|[i, j]| j * width + i);
-        if around.iter().any(|&q| grid.faces[q] != face) {
+        if around.iter().any(|&q| !grid.shows(q, face)) {
             continue;
         }
         let tone = around.map(|q| f64::from(grid.samples[q].tone));

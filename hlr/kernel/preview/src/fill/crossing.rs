@@ -46,7 +46,7 @@ impl Crossing<'_> {
         let cell = at.map(|i| self.cells[i] as usize);
         let face = cell.map(|c| self.tones.face[c]);
         let one = at.map(|i| &self.grid.samples[i]);
-        if at.iter().zip(face).any(|(&i, f)| self.grid.faces[i] != f) {
+        if at.iter().zip(face).any(|(&i, f)| !self.grid.shows(i, f)) {
             return None; // a speck was here
         }
         if face[0] == face[1] {

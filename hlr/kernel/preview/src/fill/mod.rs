@@ -11,6 +11,8 @@
 //! 7. `areas`     chains become closed loops again
 //! ```
 //!
+//! What is equal along a row is held and handled as `runs`: passes over single points are few.
+//!
 //! The grid decides which areas are found; the triangles decide where their borders run. Time and memory are bounded by
 //! the number of points of the grid, whatever the model: faces that pass through one another, or overlap in a cycle,
 //! need no order. Neighbours share their border, without gap or overlap.
@@ -19,6 +21,7 @@ pub mod areas;
 pub mod chains;
 pub mod conical;
 pub mod crossing;
+pub mod runs;
 pub mod samples;
 pub mod specks;
 pub mod straighten;
@@ -28,6 +31,7 @@ use crate::shade::Scene;
 use crate::workspace::Workspace;
 
 pub use areas::Areas;
+use runs::Runs;
 
 /// A face that is visible at fewer adjacent points of the grid than this goes to its neighbour.
 const SPECK: usize = 6;
@@ -46,18 +50,25 @@ pub fn areas(
     let size = scene.lens.size;
     let mut grid = samples::grid(scene, label, space, stopped)?;
     let mut faces = grid.faces.clone();
-    specks::merge(&mut faces, size, SPECK, |_, _| 0);
+    specks::merge(&grid.runs, &mut faces, SPECK, |_, _| 0);
     if stopped() {
         return None;
     }
     let tones = tone::tones(&mut grid, &faces, fine);
     let mut cells = tone::cells(&grid, &faces, &tones);
-    specks::merge(&mut cells, size, BAND_SPECK, |a, b| tones.alike(a as usize, b as usize));
+    let parts = Runs::new(&cells, size[0], u32::eq);
+    let mut merged: Vec<u32> = (0..parts.count()).map(|k| cells[parts.places(k).start]).collect();
+    specks::merge(&parts, &mut merged, BAND_SPECK, |a, b| tones.alike(a as usize, b as usize));
+    for (k, &cell) in merged.iter().enumerate() {
+        if cells[parts.places(k).start] != cell {
+            cells[parts.places(k)].fill(cell);
+        }
+    }
     if stopped() {
         return None;
     }
-    let found = chains::chains(&cells, size);
+    let found = chains::chains(&cells, &parts, size);
     let at = crossing::Crossing { scene, label, grid: &grid, cells: &cells, tones: &tones };
     let borders = straighten::borders(&found, &at, size, stopped)?;
-    Some(areas::collect(&grid, &tones, &cells, &found, borders))
+    Some(areas::collect(&grid, &tones, (&cells, &parts), &found, borders))
 }

@@ -1,13 +1,15 @@
 //! Samples the picture at the points of a grid, one per pixel: the stack of visible faces, and their combined colour.
 
 use std::collections::HashMap;
+use std::iter::empty;
 
+use super::runs::Runs;
 use crate::NOTHING;
 use crate::faces::faces;
 use crate::grid::{TILE_HEIGHT, TILE_WIDTH};
 use crate::resolve::Encoder;
 use crate::sampling::Sampling;
-use crate::shade::Scene;
+use crate::shade::{Ready, Scene};
 use crate::shading_cache::ShadingCache;
 use crate::tiles::{Filled, each_tile};
 use crate::transparent::{Layer, layers, over};
@@ -32,10 +34,19 @@ const NONE: Sample = Sample { stack: 0, front: NOTHING, solid: NOTHING, tone: 0.
 pub struct Grid {
     pub size: [usize; 2],
     pub samples: Vec<Sample>,
-    /// Row by row: the number of the stack that is visible, from 0 for nothing.
+    /// Stretches of one stack in the rows, and the number of each one's stack, from 0 for nothing.
+    pub runs: Runs,
     pub faces: Vec<u32>,
-    /// Per number: the triangle where it was first met.
+    /// Per number: the stack, and the triangle where it was first met.
+    stacks: Vec<u64>,
     pub first: Vec<u32>,
+}
+
+impl Grid {
+    /// Whether the stack with this number is visible at a place.
+    pub fn shows(&self, place: usize, number: u32) -> bool {
+        self.samples[place].stack == self.stacks[number as usize]
+    }
 }
 
 /// None when stopped.
@@ -54,7 +65,7 @@ pub fn grid(scene: &Scene, label: &[i32], space: &mut Workspace, stopped: &(dyn 
         &sampling,
         scene.model.transparent,
         &mut samples,
-        NONE,
+        None,
         stopped,
         looker,
         |l, filled, rows| {
@@ -63,23 +74,19 @@ pub fn grid(scene: &Scene, label: &[i32], space: &mut Workspace, stopped: &(dyn 
     ) {
         return None;
     }
+    let runs = Runs::new(&samples, size[0], |a, b| a.stack == b.stack);
     let mut number: HashMap<u64, u32> = HashMap::from([(0, 0)]);
-    let mut first = vec![NOTHING];
-    let mut last = (0u64, 0u32);
-    let faces = samples
-        .iter()
-        .map(|s| {
-            if s.stack != last.0 {
-                let known = *number.entry(s.stack).or_insert_with(|| {
-                    first.push(s.front);
-                    first.len() as u32 - 1
-                });
-                last = (s.stack, known);
-            }
-            last.1
+    let (mut stacks, mut first) = (vec![0], vec![NOTHING]);
+    let face = |k: usize| {
+        let sample = &samples[runs.places(k).start];
+        *number.entry(sample.stack).or_insert_with(|| {
+            stacks.push(sample.stack);
+            first.push(sample.front);
+            first.len() as u32 - 1
         })
-        .collect();
-    Some(Grid { size, samples, faces, first })
+    };
+    let faces = (0..runs.count()).map(face).collect();
+    Some(Grid { size, samples, runs, faces, stacks, first })
 }
 
 struct Looker<'a> {
@@ -98,12 +105,38 @@ impl Looker<'_> {
         let mut found: Vec<Layer> = Vec::new();
         layers(filled.tile, filled.transparent, filled.first, &sampling, &mut found);
         for (j, row) in rows.chunks_mut(width).take(TILE_HEIGHT).enumerate() {
-            for (i, sample) in row[left..left + wide].iter_mut().enumerate() {
+            let row = &mut row[left..left + wide];
+            if found.is_empty() {
+                self.runs(filled, j, row);
+                continue;
+            }
+            for (i, sample) in row.iter_mut().enumerate() {
                 let place = sampling.place(left + i, filled.first[1] + j);
                 let number = (j * TILE_WIDTH + i) as u16;
                 let from = found.partition_point(|l| l.sample < number);
                 let clear = found[from..].iter().take_while(|l| l.sample == number);
                 *sample = self.look(filled.tile.triangle(i, j), clear.map(|l| l.triangle), place);
+            }
+        }
+    }
+
+    /// A row without transparent faces: run by run of one triangle.
+    fn runs(&mut self, filled: &Filled, j: usize, row: &mut [Sample]) {
+        let mut column = 0;
+        while let Some((from, to, triangle)) = filled.tile.run(j, column) {
+            if from >= row.len() {
+                return;
+            }
+            let place = Sampling::CENTRES.place(filled.first[0] + from, filled.first[1] + j);
+            column = to.min(row.len());
+            let run = &mut row[from..column];
+            let scene = self.scene;
+            if let Ready::Flat(_) = self.kept.get(triangle, || scene.ready(triangle, place)) {
+                run.fill(self.look(triangle, empty(), place));
+                continue;
+            }
+            for (i, sample) in run.iter_mut().enumerate() {
+                *sample = self.look(triangle, empty(), [place[0] + i as f64, place[1]]);
             }
         }
     }

@@ -1,38 +1,31 @@
 //! Merges pieces of a map that are too small to be visible into a neighbour.
 
-/// `map`: row by row, 0 for nothing. A connected piece of fewer than `least` places goes to the largest of its most
-/// `alike` neighbours; to nothing only where there is no other neighbour.
-pub fn merge(map: &mut [u32], [width, height]: [usize; 2], least: usize, alike: impl Fn(u32, u32) -> u32) {
-    let piece = pieces(map, width, height);
+use super::runs::Runs;
+
+/// `map`: the value of each run, 0 for nothing. A connected piece of fewer than `least` places goes to the largest of
+/// its most `alike` neighbours; to nothing only where there is no other neighbour.
+pub fn merge(runs: &Runs, map: &mut [u32], least: usize, alike: impl Fn(u32, u32) -> u32) {
+    let piece = pieces(runs, map);
     let count = piece.iter().max().map_or(0, |&m| m as usize + 1);
     let (mut size, mut value) = (vec![0usize; count], vec![0u32; count]);
-    for (p, &v) in piece.iter().zip(map.iter()) {
-        size[*p as usize] += 1;
-        value[*p as usize] = v;
+    for (k, (&p, &v)) in piece.iter().zip(map.iter()).enumerate() {
+        size[p as usize] += runs.places(k).len();
+        value[p as usize] = v;
     }
-    let small = |p: u32, size: &[usize]| size[p as usize] < least;
+    let small = |p: u32| size[p as usize] < least;
     let mut pairs: Vec<[u32; 2]> = Vec::new();
-    let mut meet = |a: u32, b: u32| {
+    let mut meet = |a: usize, b: usize| {
+        let (a, b) = (piece[a], piece[b]);
         if a != b {
-            if small(a, &size) {
+            if small(a) {
                 pairs.push([a, b]);
             }
-            if small(b, &size) {
+            if small(b) {
                 pairs.push([b, a]);
             }
         }
     };
-    for y in 0..height {
-        for x in 0..width {
-            let here = piece[y * width + x];
-            if x + 1 < width {
-                meet(here, piece[y * width + x + 1]);
-            }
-            if y + 1 < height {
-                meet(here, piece[(y + 1) * width + x]);
-            }
-        }
-    }
+    runs.touching(&mut meet);
     pairs.sort_unstable();
     pairs.dedup();
     let mut of: Vec<&[[u32; 2]]> = pairs.chunk_by(|a, b| a[0] == b[0]).collect();
@@ -65,41 +58,28 @@ pub fn merge(map: &mut [u32], [width, height]: [usize; 2], least: usize, alike: 
     }
 }
 
-/// Row by row the number of the piece: adjacent places of one value, across or down, are one piece.
-fn pieces(map: &[u32], width: usize, height: usize) -> Vec<u32> {
-    let mut out = vec![0u32; map.len()];
-    let mut owner: Vec<u32> = Vec::new();
-    for y in 0..height {
-        for x in 0..width {
-            let at = y * width + x;
-            let left = (x > 0 && map[at - 1] == map[at]).then(|| out[at - 1]);
-            let above = (y > 0 && map[at - width] == map[at]).then(|| out[at - width]);
-            out[at] = match (left, above) {
-                (Some(l), Some(a)) => {
-                    let (l, a) = (root(&mut owner, l), root(&mut owner, a));
-                    owner[l.max(a) as usize] = l.min(a);
-                    l.min(a)
-                }
-                (Some(one), None) | (None, Some(one)) => one,
-                (None, None) => {
-                    owner.push(owner.len() as u32);
-                    owner.len() as u32 - 1
-                }
-            };
+/// Per run the number of its piece: touching runs of one value are one piece.
+fn pieces(runs: &Runs, map: &[u32]) -> Vec<u32> {
+    let mut owner: Vec<u32> = (0..map.len() as u32).collect();
+    let mut join = |a: usize, b: usize| {
+        if map[a] == map[b] {
+            let (a, b) = (root(&mut owner, a as u32), root(&mut owner, b as u32));
+            owner[a.max(b) as usize] = a.min(b);
         }
-    }
+    };
+    runs.touching(&mut join);
     // Numbers pieces consecutively.
     let mut number = vec![u32::MAX; owner.len()];
     let mut next = 0;
-    for p in &mut out {
-        let r = root(&mut owner, *p) as usize;
+    let numbered = |k: u32| {
+        let r = root(&mut owner, k) as usize;
         if number[r] == u32::MAX {
             number[r] = next;
             next += 1;
         }
-        *p = number[r];
-    }
-    out
+        number[r]
+    };
+    (0..map.len() as u32).map(numbered).collect()
 }
 
 fn root(owner: &mut [u32], mut p: u32) -> u32 {
@@ -114,17 +94,27 @@ fn root(owner: &mut [u32], mut p: u32) -> u32 {
 mod tests {
     use super::*;
 
+    fn merged(map: &[u32], width: usize, least: usize) -> Vec<u32> {
+        let runs = Runs::new(map, width, u32::eq);
+        let mut values: Vec<u32> = (0..runs.count()).map(|k| map[runs.places(k).start]).collect();
+        merge(&runs, &mut values, least, |_, _| 0);
+        (0..runs.count()).flat_map(|k| vec![values[k]; runs.places(k).len()]).collect()
+    }
+
     #[test]
     fn a_speck_goes_to_the_largest_beside_it_and_not_to_nothing() {
-        let mut map = vec![1, 1, 1, 0, 1, 2, 1, 0, 1, 1, 3, 0];
-        merge(&mut map, [4, 3], 2, |_, _| 0);
-        assert_eq!(map, [1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0]);
+        let map = [1, 1, 1, 0, 1, 2, 1, 0, 1, 1, 3, 0];
+        assert_eq!(merged(&map, 4, 2), [1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0]);
     }
 
     #[test]
     fn what_stands_alone_stays() {
-        let mut map = vec![0, 0, 0, 0, 5, 0, 0, 0, 0];
-        merge(&mut map, [3, 3], 4, |_, _| 0);
-        assert_eq!(map[4], 5);
+        assert_eq!(merged(&[0, 0, 0, 0, 5, 0, 0, 0, 0], 3, 4)[4], 5);
+    }
+
+    #[test]
+    fn runs_around_a_hole_are_one_piece() {
+        let map = [1, 1, 1, 1, 2, 1, 1, 1, 1];
+        assert_eq!(pieces(&Runs::new(&map, 3, u32::eq), &[1, 1, 2, 1, 1]), [0, 0, 1, 0, 0]);
     }
 }

@@ -4,11 +4,13 @@
 //! of one coordinate of the picture. The direction of that coordinate is found by a search: along it, points at equal
 //! positions differ least.
 
+use std::ops::Range;
+
 use hlr_exact::elementary::sin_cos;
 use rayon::prelude::*;
 
 use super::conical::{Fan, place};
-use super::samples::{Grid, Sample};
+use super::samples::Grid;
 
 /// Of 255: tones that differ by less are painted in one colour.
 const EVEN: f32 = 1.5;
@@ -21,7 +23,7 @@ const FAN_STEP: f32 = 1.0;
 const MOST_IN_FAN: f32 = 256.0;
 /// Bands of a fan to either side that smooth the colour of one.
 const BESIDE: usize = 4;
-/// Number of points on which directions are tried.
+/// Number of points on which directions, and centres of fans, are tried.
 const TRIED: usize = 1500;
 /// Number of slices across a gradient.
 const SLICES: usize = 64;
@@ -67,54 +69,36 @@ impl Tones {
     }
 }
 
-/// `faces`: face of each point; `fine`: least width of a band, in points. The tone of each point of a fan is replaced
-/// by that of its angle, so that bands of the fan have straight borders.
+/// `faces`: face of each run of the grid; `fine`: least width of a band, in points. The tone of each point of a fan is
+/// replaced by that of its angle, so that bands of the fan have straight borders.
 pub fn tones(grid: &mut Grid, faces: &[u32], fine: f64) -> Tones {
-    let count = grid.first.len();
-    let mut starts = vec![0usize; count + 1];
-    // A point that a speck has left to its neighbour has another face's colour: it does not count.
-    let own = |p: usize| grid.faces[p] == faces[p];
-    for (p, &f) in faces.iter().enumerate() {
-        starts[f as usize + 1] += usize::from(own(p));
-    }
-    for f in 0..count {
-        starts[f + 1] += starts[f];
-    }
-    let mut points = vec![0u32; starts[count]];
-    let mut next = starts.clone();
-    for (p, &f) in faces.iter().enumerate() {
-        if own(p) {
-            points[next[f as usize]] = p as u32;
-            next[f as usize] += 1;
+    let mut own: Vec<Vec<Range<usize>>> = vec![Vec::new(); grid.first.len()];
+    for (k, &f) in faces.iter().enumerate() {
+        // A run that a speck has left to its neighbour has another face's colour: it does not count.
+        if f != 0 && grid.faces[k] == f {
+            own[f as usize].push(grid.runs.places(k));
         }
     }
     let shown: &Grid = grid;
     let painted: Vec<(Paint, Option<Fan>)> =
-        (0..count).into_par_iter().map(|f| paint(shown, &points[starts[f]..starts[f + 1]], f, fine)).collect();
-    let mut out = Tones { face: vec![], band: vec![], colour: vec![], gradient: vec![], begins: vec![] };
-    for (f, (paint, fan)) in painted.into_iter().enumerate() {
-        let own = &points[starts[f]..starts[f + 1]];
-        let is_fan = fan.is_some();
+        own.par_iter().enumerate().map(|(f, own)| paint(shown, own, f as u32, fine)).collect();
+    for (own, (_, fan)) in own.iter().zip(&painted) {
         if let Some(fan) = fan {
-            for &p in own {
-                grid.samples[p as usize].tone = fan.tone(place(grid, p));
+            for p in places(own) {
+                grid.samples[p].tone = fan.tone(place(grid, p));
             }
         }
+    }
+    let shown: &Grid = grid;
+    let sums = own.par_iter().zip(&painted).map(|(own, (paint, fan))| sums(shown, own, paint, fan.is_some()));
+    let sums: Vec<Vec<Sum>> = sums.collect();
+    let mut out = Tones { face: vec![], band: vec![], colour: vec![], gradient: vec![], begins: vec![] };
+    for (f, ((paint, _), sums)) in painted.into_iter().zip(sums).enumerate() {
         let (gradient, begins) = match paint {
             Paint::Even => (None, vec![]),
             Paint::Gradient(g) => (Some(g), vec![]),
             Paint::Bands(begins) => (None, begins),
         };
-        let mut sums = vec![([0.0f64; 4], 0.0f64); begins.len() + 1];
-        for &p in own {
-            let s = &grid.samples[p as usize];
-            let (sum, count) = &mut sums[band(&begins, s.tone)];
-            (0..4).for_each(|k| sum[k] += f64::from(s.colour[k]));
-            *count += 1.0;
-        }
-        if is_fan {
-            sums = smoothed(&sums);
-        }
         let mut last = [0u8; 4];
         for (b, (sum, count)) in sums.into_iter().enumerate() {
             if count > 0.0 {
@@ -130,9 +114,22 @@ pub fn tones(grid: &mut Grid, faces: &[u32], fine: f64) -> Tones {
     out
 }
 
+fn sums(grid: &Grid, own: &[Range<usize>], paint: &Paint, is_fan: bool) -> Vec<Sum> {
+    let begins: &[f32] = if let Paint::Bands(begins) = paint { begins } else { &[] };
+    let mut sums = vec![([0.0f64; 4], 0.0f64); begins.len() + 1];
+    for run in own {
+        for s in &grid.samples[run.clone()] {
+            let (sum, count) = &mut sums[band(begins, s.tone)];
+            (0..4).for_each(|k| sum[k] += f64::from(s.colour[k]));
+            *count += 1.0;
+        }
+    }
+    if is_fan { smoothed(&sums) } else { sums }
+}
+
 /// Sums of colours and numbers of points by band, each smoothed by a line through the neighbouring bands: bands of a
 /// fan are so narrow that facets would show.
-fn smoothed(sums: &[([f64; 4], f64)]) -> Vec<([f64; 4], f64)> {
+fn smoothed(sums: &[Sum]) -> Vec<Sum> {
     let at = |b: usize| {
         let beside = b.saturating_sub(BESIDE)..(b + BESIDE + 1).min(sums.len());
         let (mut n, mut x, mut xx, mut y, mut xy) = (0.0, 0.0, 0.0, [0.0; 4], [0.0; 4]);
@@ -158,36 +155,57 @@ pub fn cells(grid: &Grid, faces: &[u32], tones: &Tones) -> Vec<u32> {
     for f in 0..grid.first.len() {
         first[f + 1] += first[f];
     }
-    let of = |(&f, s): (&u32, &Sample)| {
-        let range = first[f as usize] + 1..first[f as usize + 1];
-        (first[f as usize] + band(&tones.begins[range], s.tone)) as u32
-    };
-    faces.par_iter().zip(&grid.samples).map(of).collect()
+    let mut out = vec![0; grid.samples.len()];
+    out.par_chunks_mut(grid.size[0]).enumerate().for_each(|(y, row)| {
+        for k in grid.runs.row(y).filter(|&k| faces[k] != 0) {
+            let (cell, places) = (first[faces[k] as usize], grid.runs.places(k));
+            let begins = &tones.begins[cell + 1..first[faces[k] as usize + 1]];
+            let left = places.start - y * grid.size[0];
+            for (out, s) in row[left..].iter_mut().zip(&grid.samples[places]) {
+                *out = (cell + band(begins, s.tone)) as u32;
+            }
+        }
+    });
+    out
 }
 
 fn band(begins: &[f32], tone: f32) -> usize {
     begins.partition_point(|&b| b <= tone)
 }
 
-fn paint(grid: &Grid, points: &[u32], face: usize, fine: f64) -> (Paint, Option<Fan>) {
-    let tone = |p: &u32| grid.samples[*p as usize].tone;
-    let low = points.iter().map(tone).fold(f32::INFINITY, f32::min);
-    let high = points.iter().map(tone).fold(f32::NEG_INFINITY, f32::max);
-    if face == 0 || points.is_empty() || high - low <= EVEN {
+/// The places of runs, one after another.
+fn places(runs: &[Range<usize>]) -> impl Iterator<Item = usize> {
+    runs.iter().cloned().flatten()
+}
+
+fn paint(grid: &Grid, own: &[Range<usize>], face: u32, fine: f64) -> (Paint, Option<Fan>) {
+    let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
+    for run in own {
+        for s in &grid.samples[run.clone()] {
+            (low, high) = (low.min(s.tone), high.max(s.tone));
+        }
+    }
+    if own.is_empty() || high - low <= EVEN {
         return (Paint::Even, None);
     }
-    if let Some(gradient) = gradient(grid, points) {
+    let count: usize = own.iter().map(Range::len).sum();
+    // An odd step: with a divisor in common with the rows, points would all lie in a few columns.
+    let tried: Vec<usize> = places(own).step_by((count / TRIED).max(1) | 1).collect();
+    if let Some(gradient) = gradient(grid, middle(grid, own), &tried) {
         return (Paint::Gradient(gradient), None);
     }
-    let fan = Fan::find(grid, points, face as u32);
+    let fan = Fan::find(grid, &tried, face);
     let (step, most) = if fan.is_some() { (FAN_STEP, MOST_IN_FAN) } else { (STEP, MOST_BANDS) };
-    let wide = ((points.len() as f64).sqrt() / fine) as f32;
-    let count = ((high - low) / step).min(most).min(wide).max(1.0) as usize;
-    if count < 2 {
+    let wide = ((count as f64).sqrt() / fine) as f32;
+    let bands = ((high - low) / step).min(most).min(wide).max(1.0) as usize;
+    if bands < 2 {
         return (Paint::Even, None);
     }
-    (Paint::Bands((1..count).map(|k| low + (high - low) * k as f32 / count as f32).collect()), fan)
+    (Paint::Bands((1..bands).map(|k| low + (high - low) * k as f32 / bands as f32).collect()), fan)
 }
+
+/// Of the points of a band: the sum of their colours, and their number.
+type Sum = ([f64; 4], f64);
 
 /// Some points of a face: position relative to their middle, tone, colour.
 struct Tried {
@@ -195,8 +213,12 @@ struct Tried {
     points: Vec<([f64; 2], f32, [u8; 4])>,
 }
 
-fn gradient(grid: &Grid, points: &[u32]) -> Option<Gradient> {
-    let tried = chosen(grid, points);
+fn gradient(grid: &Grid, middle: [f64; 2], tried: &[usize]) -> Option<Gradient> {
+    let relative = |&p: &usize| {
+        let (s, at) = (&grid.samples[p], place(grid, p));
+        ([at[0] - middle[0], at[1] - middle[1]], s.tone, s.colour)
+    };
+    let tried = Tried { middle, points: tried.iter().map(relative).collect() };
     if tried.points.len() < 12 {
         return None;
     }
@@ -238,19 +260,15 @@ fn gradient(grid: &Grid, points: &[u32]) -> Option<Gradient> {
     Some(Gradient { from: along(first), to: along(last), stops: stops.collect() })
 }
 
-fn chosen(grid: &Grid, points: &[u32]) -> Tried {
-    let width = grid.size[0];
-    let place = |p: u32| [(p as usize % width) as f64 + 0.5, (p as usize / width) as f64 + 0.5];
-    let count = points.len() as f64;
-    let sum = points.iter().fold([0.0; 2], |s, &p| [s[0] + place(p)[0], s[1] + place(p)[1]]);
-    let middle = sum.map(|s| s / count);
-    // An odd step: with a divisor in common with the rows, points would all lie in a few columns.
-    let step = (points.len() / TRIED).max(1) | 1;
-    let one = |&p: &u32| {
-        let s = &grid.samples[p as usize];
-        ([place(p)[0] - middle[0], place(p)[1] - middle[1]], s.tone, s.colour)
-    };
-    Tried { middle, points: points.iter().step_by(step).map(one).collect() }
+/// The middle of all points of a face.
+fn middle(grid: &Grid, own: &[Range<usize>]) -> [f64; 2] {
+    let (mut sum, mut count) = ([0.0; 2], 0.0);
+    for run in own {
+        let (first, last, long) = (place(grid, run.start), place(grid, run.end - 1), run.len() as f64);
+        sum = [0, 1].map(|k: usize| sum[k] + 0.5 * (first[k] + last[k]) * long);
+        count += long;
+    }
+    sum.map(|s| s / count)
 }
 
 struct Slices {
