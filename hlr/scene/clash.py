@@ -2,8 +2,7 @@
 
 Triangles of surfaces that only touch cross here and there, because tessellation and files round. The depth decides: a
 connected set of segments is an intersection where at least one of its triangles reaches beyond the other's plane, on
-both sides, by more than the accuracy: two fifths of the contact tolerance. Facets of meshes at small angles have to
-reach farther, by all of it. Planar faces have no chord error: next to nothing is forgiven there.
+both sides, by more than the contact tolerance. Planar faces have no chord error: next to nothing is forgiven there.
 
 ::
 

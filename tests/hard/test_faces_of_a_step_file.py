@@ -112,6 +112,18 @@ def test_an_open_surface_has_borders_where_it_ends_and_nowhere_else(path):
     assert "it is open, at 2 edges" in note.text
 
 
+@pytest.mark.parametrize("way", [(10.0, 7.0, 5.0), (60.0, 0.0, 0.0)])
+def test_closed_bodies_without_a_name_are_parts(path, way):
+    bodies = [block(), block().moved(cq.Location(cq.Vector(*way)))]
+    writer = STEPControl_Writer()
+    for body in bodies:
+        writer.Transfer(body.Shells()[0].wrapped, Mode.STEPControl_AsIs)
+    writer.Write(path)
+    drawing = hlr.draw(path, "iso", **AT_SIZE)
+    assert [part.name for part in drawing.parts] == ["faces", "faces:2"]
+    same(drawing, hlr.draw(cq.Compound.makeCompound(bodies), "iso", **AT_SIZE))
+
+
 def test_faces_with_names_are_parts(path):
     assembly = cq.Assembly(name="surface")
     for number, face in enumerate(loose(block())):

@@ -10,13 +10,22 @@ from hlr.source.cad.shapes import make_compound, sub_shapes
 
 
 def is_loose(leaf: Leaf) -> bool:
-    """Whether it has faces, and no solids."""
+    """Whether it has faces outside solids that close no body: some edge has a face on one side alone."""
+    from OCP.BRep import BRep_Tool
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
     from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
 
-    return TopExp_Explorer(leaf.shape, Kind.TopAbs_FACE).More() and not (
-        TopExp_Explorer(leaf.shape, Kind.TopAbs_SOLID).More()
-    )
+    if TopExp_Explorer(leaf.shape, Kind.TopAbs_SOLID).More():
+        return False
+    borders: set[object] = set()
+    for face in sub_shapes(leaf.shape, Kind.TopAbs_FACE):
+        edges = TopExp_Explorer(face, Kind.TopAbs_EDGE)
+        while edges.More():
+            if not BRep_Tool.Degenerated_s(TopoDS.Edge(edges.Current())):
+                borders ^= {edges.Current().TShape()}
+            edges.Next()
+    return bool(borders)
 
 
 def as_one(leaves: Sequence[Leaf], name: str, above: tuple[str, ...]) -> Leaf:

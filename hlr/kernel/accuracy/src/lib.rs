@@ -44,8 +44,7 @@ pub const EDGE_IN_FACE: f64 = 0.1;
 /// line there but its own edge. In view depth that takes more, the more obliquely one looks: `CONTACT_PLANAR` is ten times as much.
 pub const FLUSH: f64 = 0.25;
 /// Of the contact depth: that at right angles to a surface. Two tessellations are off by one deflection each, which is this
-/// much, and one accuracy; the rest is for surfaces seen obliquely. What goes deeper is an intersection, with a line: for
-/// its own edges are hidden where they are seen at a slant.
+/// much; the rest is for surfaces seen obliquely.
 pub const CONTACT_AT_RIGHT_ANGLES: f64 = 0.4;
 /// Of the contact depth: what one face of a solid may dip into another face of the same solid. On sound solids facets
 /// cross by a fifth of a deflection at most.

@@ -13,7 +13,7 @@
 use super::planes::{Plane, Planes};
 use super::reach::{Sheet, Vec3};
 use super::search::Clash;
-use hlr_accuracy::{CONTACT_AT_RIGHT_ANGLES, CONTACT_OF_ONE_SOLID, CONTACT_POINT, FLUSH};
+use hlr_accuracy::{CONTACT_OF_ONE_SOLID, CONTACT_POINT, FLUSH};
 use hlr_mesh::vector::{dot, sub};
 
 /// Sine of an angle: two tessellations of one curved surface never cross at more, as chords turn by at most half a
@@ -97,11 +97,6 @@ impl Bodies<'_> {
         // Two planar faces in nearly one plane come apart by what their file rounded, over any length: that closes no gap
         // between lines (`level`), and only where it is more than a contact is it a line (`beyond`).
         let curved = planes.iter().any(Option::is_none);
-        // Depth is measured at right angles to the surfaces. An edge that lies deeper than this behind one is hidden by it
-        // in some views, so from here on the line has to be there. Facets of meshes without B-rep cross by any depth where
-        // two of them stand for one curved surface, but only at small angles.
-        let one_solid = solid && groups[0] == groups[1];
-        let at_right_angles = if one_solid || !(solid || steep) { 1.0 } else { CONTACT_AT_RIGHT_ANGLES };
         let mut beyond = f64::INFINITY;
         for k in 0..2 {
             if curved && apart.is_finite() {
@@ -115,7 +110,7 @@ impl Bodies<'_> {
             // angle.
             let forgiven = match (planes[k], planes[1 - k]) {
                 (Some(plane), other) if steep || other.is_some() => touch.min(FLUSH * self.deflection + plane.off),
-                _ => touch * at_right_angles,
+                _ => touch,
             };
             beyond = beyond.min(deep - forgiven);
         }
