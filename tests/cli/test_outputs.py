@@ -75,6 +75,7 @@ def test_a_preview_into_a_folder(hlr_real, tmp_path):
         (["--scale", "2", "--scale", "3"], "--scale is given twice"),
         (["--fit", "A7x"], "A4-landscape"),
         (["b.step"], "draw takes SOURCE, and 'b.step' is one more; hlr batch draws many"),
+        (["--arrange", "-o", "b.pdf"], "--arrange takes a value, and -o stands there"),
     ],
 )
 def test_contradictions_are_refused(hlr_command, tmp_path, arguments, words):
