@@ -89,3 +89,18 @@ def test_what_is_well_behind_a_ball_or_the_ring_is_still_found(model, drawing):
     behind = sunk_behind_a_ball(found, np.array(whole.view.direction)) > ACCURACY
     own = np.array([whole.parts[x.part].name == "ring" for x in whole.lines])[line]
     assert (own & behind).sum() > 1000 and (own & ~behind).sum() > 1000
+
+
+def test_what_is_far_behind_a_seam_of_two_parts_is_found():
+    """A plate of the line's own part covers it on one side, and another part on the other: both far before it."""
+    clamp = cq.Workplane().box(20, 30, 20).cut(cq.Workplane().box(15, 20, 20).translate((2.5, 0, 0)))
+    cover = cq.Workplane().box(20, 5, 20).translate((20 - 1e-3, -12.5, 0))
+    opened = open_source(cq.Assembly().add(clamp, name="clamp").add(cover, name="cover"))
+    drawing = hlr.draw(opened, "front", scale=SCALE, accuracy=ACCURACY)
+    caster = Caster.of(opened, drawing, Paper.of(drawing), drawing.accuracy.deflection)
+    edge = np.stack([np.full(9, 10.0), np.full(9, 10.0), np.linspace(-8.0, 8.0, 9)], axis=1)
+    clamped = [part.name for part in drawing.parts].index("clamp")
+    assert caster.blocked_surely(edge, np.full(9, clamped)).all()
+    # By itself the clamp covers half of the rays.
+    alone = caster._of(caster.part == clamped)
+    assert not alone.blocked_surely(edge, np.full(9, clamped)).any()

@@ -16,7 +16,7 @@ from hard.brep import same
 
 import hlr
 from support.at_size import AT_SIZE
-from support.sections import hatch_of
+from support.sections import measured_area
 
 HEIGHTS = [0.1, 0.3, 1.1, 3.3, 6.35, 10.1, 12.7, 25.4, 41.7, 63.3, 100.3, 123.4, 254.7]
 RING = 40.0 * 30.0 - 20.0 * 10.0
@@ -42,15 +42,6 @@ def lifted(height: float):
     return move
 
 
-def hatched(drawing: hlr.Drawing) -> float:
-    """Square millimetres, by the length of the hatch and the distance of its lines."""
-    ends = hatch_of(drawing)
-    ways = ends[:, 1] - ends[:, 0]
-    across = np.array([-ways[0, 1], ways[0, 0]]) / np.linalg.norm(ways[0])
-    apart = np.diff(np.unique((ends[:, 0] @ across).round(6)))
-    return float(np.linalg.norm(ways, axis=1).sum() * apart[apart > 0.01].min())
-
-
 @pytest.mark.parametrize("view", ["top", "bottom"])
 @pytest.mark.parametrize("height", HEIGHTS)
 def test_an_stl_file_is_cut_as_the_solid_at_every_height(tmp_path, height, view):
@@ -58,7 +49,7 @@ def test_an_stl_file_is_cut_as_the_solid_at_every_height(tmp_path, height, view)
     tessellated(lifted(height)).export(path)
     solid = block().moved(cq.Location(cq.Vector(0, 0, height)))
     found = [hlr.draw(each, view, section=height, **AT_SIZE) for each in (path, solid)]
-    assert hatched(found[0]) == pytest.approx(RING, rel=0.03)
+    assert measured_area(found[0]) == pytest.approx(RING, rel=0.03)
     same(*found)
 
 
@@ -71,7 +62,7 @@ def test_a_mesh_that_is_turned_and_rounded_is_cut_so_too(seed, reach):
     mesh = tessellated(move)
     mesh.vertices = mesh.vertices.astype(np.float32)
     drawing = hlr.draw(mesh, tuple(move[:3, 2]), section=tuple(move[:3, 3]), **AT_SIZE)
-    assert hatched(drawing) == pytest.approx(RING, rel=0.03)
+    assert measured_area(drawing) == pytest.approx(RING, rel=0.03)
     # The border of the block and that of the pocket, seen straight on.
     length = sum(
         np.linalg.norm(np.diff(line.points, axis=0), axis=1).sum() for line in drawing.visible if line.kind == "sharp"
@@ -89,7 +80,7 @@ def test_a_plane_that_steps_is_put_on_the_floor(kind, below, step):
     # The block is turned so that its floor looks to the front, at y = 0; the planes lie at 0, and 3 mm behind it.
     drawing = hlr.draw(model, "front", section=(below, (step, 3.0)), **AT_SIZE)
     wanted = 30.0 * (20.0 + step) - 10.0 * (10.0 + np.clip(step, -10.0, 10.0)) + 30.0 * (20.0 - step)
-    assert hatched(drawing) == pytest.approx(wanted, rel=0.03)
+    assert measured_area(drawing) == pytest.approx(wanted, rel=0.03)
 
 
 @pytest.mark.parametrize("below", [0.0001, 0.001, 0.005, 0.01, 0.05])

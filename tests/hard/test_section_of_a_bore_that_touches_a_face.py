@@ -10,12 +10,11 @@ from __future__ import annotations
 import math
 
 import cadquery as cq
-import numpy as np
 import pytest
 
 import hlr
 from support.at_size import AT_SIZE
-from support.sections import hatch_of
+from support.sections import measured_area
 
 SIDE, RADIUS, DEPTH, AT = 16.0, 3.0, 11.0, (5.0, 4.0)
 """Millimetres; the axis of the bore lies at y, z."""
@@ -26,21 +25,12 @@ def block() -> cq.Workplane:
     return cq.Workplane().box(SIDE, SIDE, SIDE).cut(bore)
 
 
-def hatched(drawing: hlr.Drawing) -> float:
-    """Square millimetres of the model, by the length of the hatch and the distance of its lines."""
-    ends = hatch_of(drawing)
-    ways = ends[:, 1] - ends[:, 0]
-    across = np.array([-ways[0, 1], ways[0, 0]]) / np.linalg.norm(ways[0])
-    apart = np.diff(np.unique((ends[:, 0] @ across).round(6)))
-    return float(np.linalg.norm(ways, axis=1).sum() * apart[apart > 0.01].min()) / drawing.scale**2
-
-
 @pytest.mark.parametrize("view", ["front", "back"])
 @pytest.mark.parametrize("y", [2.5, 4.9, 6.0, 7.0, 7.9])
 def test_it_is_cut_from_both_sides(view, y):
     drawing = hlr.draw(block(), view, section=y, **AT_SIZE)
     width = 2.0 * math.sqrt(RADIUS**2 - (y - AT[0]) ** 2)
-    assert hatched(drawing) == pytest.approx(SIDE * SIDE - DEPTH * width, rel=0.03)
+    assert measured_area(drawing) == pytest.approx(SIDE * SIDE - DEPTH * width, rel=0.03)
 
 
 @pytest.mark.parametrize(("view", "place"), [("top", 4.5), ("bottom", 3.5), ("left", 0.0), ("right", -1.0)])
@@ -48,7 +38,7 @@ def test_other_planes_cut_it_too(view, place):
     drawing = hlr.draw(block(), view, section=place, **AT_SIZE)
     across = 2.0 * math.sqrt(RADIUS**2 - 0.25)
     lost = math.pi * RADIUS**2 if view in ("left", "right") else across * DEPTH
-    assert hatched(drawing) == pytest.approx(SIDE * SIDE - lost, rel=0.03)
+    assert measured_area(drawing) == pytest.approx(SIDE * SIDE - lost, rel=0.03)
 
 
 def test_picture(picture):

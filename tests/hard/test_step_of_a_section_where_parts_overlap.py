@@ -7,27 +7,16 @@ from __future__ import annotations
 import cadquery as cq
 import numpy as np
 import pytest
-import trimesh
 
 import hlr
 from support.at_size import AT_SIZE
-from support.sections import mesh_of
+from support.sections import assembled
 
 STEP = 22.0
 
 
 def bodies(pin: float = STEP) -> dict[str, cq.Workplane]:
     return {"body": cq.Workplane().box(60, 40, 20), "pin": cq.Workplane().cylinder(12, 3).translate((pin, 0, 0))}
-
-
-def assembled(shapes: dict[str, cq.Workplane], meshed: bool) -> cq.Assembly | trimesh.Scene:
-    thing = trimesh.Scene() if meshed else cq.Assembly()
-    for name, shape in shapes.items():
-        if meshed:
-            thing.add_geometry(trimesh.Trimesh(*mesh_of(shape)), geom_name=name, node_name=name)
-        else:
-            thing.add(shape, name=name)
-    return thing
 
 
 def at_step(drawing: hlr.Drawing, step: float) -> list[tuple[float, float]]:

@@ -7,7 +7,7 @@ import trimesh
 
 import hlr
 from hlr.errors import OptionError
-from support.sections import hatch_of, hatched_area, mesh_of, section
+from support.sections import assembled, hatch_of, hatched_area, mesh_of, section
 
 STEPS = (-12.0, (3.0, 12.0))
 """From x = 3 on at y = 12, before at y = -12."""
@@ -162,13 +162,7 @@ def test_faces_on_which_others_rest_are_hatched_as_far_as_their_own_plane_reache
         cq.Workplane().box(20, 10, 20).translate((0, -5, 0)),
     )
     bodies = {"plate": plate, "boss": boss}
-    thing = trimesh.Scene() if meshed else cq.Assembly()
-    for name, body in bodies.items():
-        if meshed:
-            thing.add_geometry(trimesh.Trimesh(*mesh_of(body)), geom_name=name, node_name=name)
-        else:
-            thing.add(body, name=name)
-    drawing = section(thing, "front", (0.0, (4.0, -3.0)))
+    drawing = section(assembled(bodies, meshed), "front", (0.0, (4.0, -3.0)))
     reach = {}
     for line in drawing.lines:
         if line.kind == "hatch":

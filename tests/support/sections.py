@@ -2,6 +2,7 @@
 
 import cadquery as cq
 import numpy as np
+import trimesh
 
 import hlr
 from hlr.source.cad.kernel_cut import KernelCut
@@ -31,6 +32,26 @@ def hatch_of(drawing):
 def hatched_area(drawing, spacing):
     way = hatch_of(drawing) @ [1, 1j]
     return float(np.abs(way[:, 1] - way[:, 0]).sum() * spacing)
+
+
+def measured_area(drawing):
+    """Square millimetres of the model, by the length of the hatch and the distance of its lines, whatever that is."""
+    ends = hatch_of(drawing)
+    ways = ends[:, 1] - ends[:, 0]
+    across = np.array([-ways[0, 1], ways[0, 0]]) / np.linalg.norm(ways[0])
+    apart = np.diff(np.unique((ends[:, 0] @ across).round(6)))
+    return float(np.linalg.norm(ways, axis=1).sum() * apart[apart > 0.01].min()) / drawing.scale**2
+
+
+def assembled(bodies, meshed):
+    """An assembly of bodies by name, or a scene of their meshes."""
+    thing = trimesh.Scene() if meshed else cq.Assembly()
+    for name, body in bodies.items():
+        if meshed:
+            thing.add_geometry(trimesh.Trimesh(*mesh_of(body)), geom_name=name, node_name=name)
+        else:
+            thing.add(body, name=name)
+    return thing
 
 
 def outlines_of(drawing):

@@ -12,10 +12,9 @@ hide it or not.
         o  x  o ####  leaves the sample undecided
          o o o #####
 
-Rays beside a line may run into the very face on which it lies, where that rises toward the viewer. So nine blocked
-rays count only where the line's own part blocks all of them, or other parts all of them. Where its own part blocks
-those on one side and another part those on the other, the line is where the two touch, as the edge of a groove beside
-the outline of a ball in it: a shift of the ball of less than the accuracy decides.
+Rays beside a line may run into the very face on which it lies, where that rises toward the viewer. Where nine rays are
+blocked, some by that face and the others by another part, the line is where the two touch, as the edge of a groove
+beside the outline of a ball in it: a shift of the ball by less than the accuracy decides. Such a sample is undecided.
 """
 
 from __future__ import annotations
@@ -37,6 +36,9 @@ from hlr.lab.measure.written import Written, in_model
 from hlr.request.accuracy import ANGLE, MEASURED_CONTACT, MEASURED_SAMPLE, MESH_CONTACT, under
 
 RING = 8
+RISE = 20.0
+"""Radii of the ring: what rises no more toward the viewer may be the face on which a line lies, up to 87 degrees."""
+
 DISAGREE, BLOCKED, FREE = 0, 1, 2
 """The verdict of nine rays: they disagree, all are blocked, or none is."""
 
@@ -79,36 +81,49 @@ class Caster:
 
     def verdict(self, points: Floats) -> npt.NDArray[np.int8]:
         """(n,) verdict of the nine rays on points (n, 3) of the model: DISAGREE, BLOCKED or FREE."""
-        if not len(self.triangles):
-            return np.full(len(points), FREE, np.int8)
+        count = self._of_ring(points, self.depth).sum(axis=1)
+        return np.where(count == RING + 1, BLOCKED, np.where(count == 0, FREE, DISAGREE)).astype(np.int8)
+
+    def blocked_surely(self, points: Floats, part: Ints) -> npt.NDArray[np.bool_]:
+        """(n,) whether all nine rays from points (n, 3) are blocked, and not by the face of a line and another part.
+
+        part (n,): of the line at each point, whose face may rise toward the viewer right beside it
+        """
+        surely = np.zeros(len(points), bool)
+        rise = np.maximum(self.depth, RISE * self.radius / self.paper.magnified(points))
+        for own in np.unique(part).tolist():
+            here = np.flatnonzero(part == own)
+            by_own, by_others = self._of(self.part == own), self._of(self.part != own)
+            near = by_own._of_ring(points[here], self.depth)
+            far = by_own._of_ring(points[here], rise[here]) | by_others._of_ring(points[here], self.depth)
+            surely[here] = near.all(axis=1) | far.all(axis=1)
+        return surely
+
+    def _of(self, chosen: npt.NDArray[np.bool_]) -> Caster:
+        """The same for some of the triangles."""
+        return replace(self, triangles=self.triangles[chosen], part=self.part[chosen])
+
+    def _of_ring(self, points: Floats, depth: float | Floats) -> npt.NDArray[np.bool_]:
+        """(n, 9) which of the nine rays from points (n, 3), moved toward the viewer by `depth`, meet anything."""
         angle = np.arange(RING) * (2.0 * np.pi / RING)
         ring = np.concatenate(
             [np.zeros((1, 3)), np.outer(np.cos(angle), self.right) + np.outer(np.sin(angle), self.up)]
         )
         radius = self.radius / self.paper.magnified(points)
         starts = points[:, None, :] + ring[None] * radius[:, None, None]
-        count = self._blocked(points, starts, self.depth).sum(axis=1)
-        return np.where(count == RING + 1, BLOCKED, np.where(count == 0, FREE, DISAGREE)).astype(np.int8)
-
-    def blocked_by_one_side(self, points: Floats, part: Ints) -> npt.NDArray[np.bool_]:
-        """(n,) whether all nine rays from points (n, 3) are blocked by the part (n,) of each, or all by other parts."""
-        blocked = np.zeros(len(points), bool)
-        for own in np.unique(part).tolist():
-            here = np.flatnonzero(part == own)
-            for side in (self.part == own, self.part != own):
-                of_side = replace(self, triangles=self.triangles[side], part=self.part[side])
-                blocked[here] |= of_side.verdict(points[here]) == BLOCKED
-        return blocked
+        return self._blocked(points, starts, depth)
 
     def touched(self, points: Floats) -> npt.NDArray[np.bool_]:
         """(n,) whether anything covers points (n, 3), even by less than the contact tolerance."""
         return self._blocked(points, points[:, None, :], MEASURED_CONTACT * self.depth)[:, 0]
 
-    def _blocked(self, points: Floats, starts: Floats, depth: float) -> npt.NDArray[np.bool_]:
-        """(n, k) whether rays from starts (n, k, 3), moved toward the viewer by `depth`, meet anything."""
+    def _blocked(self, points: Floats, starts: Floats, depth: float | Floats) -> npt.NDArray[np.bool_]:
+        """(n, k) whether rays from starts (n, k, 3), moved toward the viewer by `depth`, one or (n,), meet anything."""
+        if not len(self.triangles):
+            return np.zeros(starts.shape[:2], bool)
         sight = self.paper.sight(points)
         unit = sight / np.linalg.norm(sight, axis=1)[:, None]
-        starts = starts + (unit * depth)[:, None, :]
+        starts = starts + (unit * np.reshape(depth, (-1, 1)))[:, None, :]
         if self.paper.eye is None:
             reach = np.ptp(self.points, axis=0).sum() * 2.0
             ways = np.broadcast_to(unit[:, None, :] * reach, starts.shape)
@@ -168,7 +183,7 @@ def contradicted(
     wrong = np.asarray(np.where(visible, said == BLOCKED, said == FREE))
     covered = np.flatnonzero(wrong & visible)
     part = np.array([x.part for x in drawing.lines], np.int32)[line]
-    wrong[covered] = caster.blocked_by_one_side(at[covered], part[covered])
+    wrong[covered] = caster.blocked_surely(at[covered], part[covered])
     # A line covered by less than the contact tolerance may be drawn either way.
     doubtful = np.flatnonzero(wrong & ~visible)
     wrong[doubtful] &= ~caster.touched(at[doubtful])

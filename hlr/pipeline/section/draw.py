@@ -120,7 +120,7 @@ def groups_of(
         groups.append(ViewGroup(plain, Session(opened, [views[k].view for k in plain], alone, progress), None))
     for k, cut in enumerate(cuts):
         if cut is not None:
-            asked, on_cut = _of_section(options), cut.planes.hold if cut.source.cut else None
+            asked, on_cut = _of_section(options), cut.planes.contain if cut.source.cut else None
             session = Session(cut.source.source, [views[k].view], asked, progress, on_cut=on_cut)
             session.clock["source"] += cut.seconds
             groups.append(ViewGroup([k], session, cut))

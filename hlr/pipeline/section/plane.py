@@ -89,7 +89,7 @@ class Planes:
         levels = np.array([np.array(plane.point) @ normal for plane in self.planes])
         return Stepped(normal, np.array(self.along), levels, np.array(self.steps, float))
 
-    def hold(self, points: Floats) -> npt.NDArray[np.bool_]:
+    def contain(self, points: Floats) -> npt.NDArray[np.bool_]:
         """Which of points (n, 3) lie on them."""
         return np.asarray(np.abs(self.stepped().heights(points)) <= self.near)
 
@@ -172,7 +172,8 @@ def _plane_of(
     normal, up = np.array(camera.direction), np.array(source.frame.up)
     given = None if place is True else np.array(_point(place, view)) / unit @ up
     at = 0.5 * (low + high) if given is None else float(given @ normal)
-    near = nearness(bounds, is_brep(source.kind)) + float(np.abs(normal) @ _rounding(meshed))
+    brep = is_brep(source.kind)
+    near = nearness(bounds, brep) + (0.0 if brep else float(np.abs(normal) @ _rounding(meshed)))
     name = directed(view)[0]
     if not low - near <= at <= high + near or at <= low + near:
         what = "misses the model" if at > high or at < low - near else "leaves nothing of the model"

@@ -209,7 +209,7 @@ class _PrototypeCutter:
         An error where OpenCASCADE cannot cut it.
         """
         from hlr.source.cad.closing import as_solid
-        from hlr.source.cad.half_space import on_faces
+        from hlr.source.cad.half_space import put_on_faces
 
         planes = self._planes.before(part.transform)
         ends = np.concatenate([planes.levels, planes.steps]) / self._size
@@ -218,7 +218,7 @@ class _PrototypeCutter:
         if key not in self._found:
             whole = self._shapes[part.prototype]
             scale = float(np.linalg.norm(part.transform[:3, :3].T @ self._planes.normal))
-            planes = on_faces(planes, whole, self._near / scale)
+            planes = put_on_faces(planes, whole, self._near / scale)
             if part.prototype not in self._solids:
                 self._solids[part.prototype] = as_solid(whole, self._size)
             solid = self._solids[part.prototype]

@@ -77,7 +77,7 @@ def cut_at(leaves: Sequence[Leaf], planes: Stepped, origin: Floats) -> list[Leaf
     return found
 
 
-def on_faces(planes: Stepped, shape: Any, near: float) -> Stepped:
+def put_on_faces(planes: Stepped, shape: Any, near: float) -> Stepped:
     """The planes, each put on the nearest flat face of a shape that it would run beside, no farther off than `near`.
 
     A film would be left between the two, too thin to be told from either.

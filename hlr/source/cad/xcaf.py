@@ -97,6 +97,7 @@ class _AssemblyTree:
         self.notes: list[Note] = []
         self._annotation: AnnotationFilter | None = None
         self._left_out = 0
+        # Which leaves are faces without a name, by index: several of one assembly become one leaf.
         self._nameless: set[int] = set()
         self._known_colors: dict[str, tuple[dict[Any, Color], dict[Any, float]]] = {}
 

@@ -27,8 +27,8 @@ pub struct Filled<'a> {
 }
 
 /// Fills all tiles of a picture of `size` that `space.chunks` reach. `show` writes a tile into the rows of its strip,
-/// which are `size[0]` wide and filled with `nothing` (None: as they were), and may keep data in a `scratch` of its thread. `transparent`:
-/// per triangle. False when stopped.
+/// which are `size[0]` wide and filled with `nothing` (None: as they were), and may keep data in a `scratch` of its
+/// thread. `transparent`: per triangle. False when stopped.
 #[allow(clippy::too_many_arguments)] // what is drawn, where to, and how
 pub fn each_tile<P: Copy + Send + Sync, S>(
     space: &mut Workspace,
