@@ -54,7 +54,7 @@ CODES: dict[NoteCode, str] = {
     "part-left-out": "a part holds nothing that could be drawn",
     "references-missing": "files that a STEP file refers to are not there; parts of the model are in them",
     "triangles-left-out": "triangles of a mesh are degenerate, or their corners are no numbers or do not exist",
-    "wires-left-out": "edges without faces were given, which a hidden-line drawing has no use of",
+    "wires-left-out": "edges without faces were given beside faces: only where there are no faces are they drawn",
     "free-edges-left-out": "a part of a file has edges without faces beside it: construction lines, axes, sketches",
     "annotation-left-out": "faces that a STEP file hides, or calls supplemental geometry, were left out as annotation",
     "hidden-objects-left-out": "objects that a FreeCAD document hides were left out",

@@ -18,6 +18,7 @@ from hlr.drawing.drawing import Drawing, DrawnPart
 from hlr.drawing.notes import Note, of_each_view
 from hlr.drawing.pens import usual_pens
 from hlr.drawing.picture import Picture
+from hlr.errors import SourceError
 from hlr.image.camera import Camera
 from hlr.image.image import image_of
 from hlr.image.outlines import outlined
@@ -96,6 +97,10 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
     clock = dict(session.clock)
     started = perf_counter()
     shaded = shaded_scene(scene, source.appearances(), before_the_eye(scene, camera))
+    if not len(shaded.points):
+        raise SourceError(
+            f"{source.name} holds edges but no faces: a preview needs faces (hlr draw draws edges alone)."
+        )
     planner = Planner(PREVIEW, options)
     eye = lens(camera, shaded.points, placement.per_model * PIXELS_PER_MM, options.size)
     facts = _facts(scene, camera, eye, unit)

@@ -89,10 +89,11 @@ def test_inches_become_millimetres(tmp_path):
     assert np.allclose(size, (25.4, 25.4, 50.8))
 
 
-def test_edges_without_faces_are_refused(tmp_path):
+def test_edges_without_faces_are_a_part(tmp_path):
     cq.exporters.export(cq.Workplane().circle(3), str(tmp_path / "ring.brep"), exportType="BREP")
-    with pytest.raises(SourceError, match=r"ring\.brep holds 1 edge but no faces"):
-        open_source(tmp_path / "ring.brep")
+    source = open_source(tmp_path / "ring.brep")
+    assert [(info.name, info.faces, info.edges) for info in source.infos()] == [("ring", 0, 1)]
+    assert source.notes == []
 
 
 def test_wires_beside_solids_are_noted(tmp_path):

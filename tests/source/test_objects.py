@@ -93,17 +93,24 @@ def test_nothing_to_draw():
         open_source(cq.Workplane())
     with pytest.raises(SourceError, match="no shapes"):
         open_source(cq.Assembly())
-    with pytest.raises(SourceError, match="12 edges but no faces"):
-        open_source(cq.Workplane().box(1, 1, 1).edges())
+    with pytest.raises(SourceError, match="no shapes"):
+        open_source(cq.Workplane().box(1, 1, 1).vertices())
+    with pytest.raises(SourceError, match="no faces and no edges"):
+        open_source(hollow())
 
 
-def test_one_bad_part_does_not_stop_the_others():
+def hollow():
+    """A solid without faces."""
     from OCP.BRep import BRep_Builder
     from OCP.TopoDS import TopoDS_Solid
 
-    hollow = TopoDS_Solid()
-    BRep_Builder().MakeSolid(hollow)
-    source = open_source([cq.Workplane().box(1, 1, 1), hollow])
+    solid = TopoDS_Solid()
+    BRep_Builder().MakeSolid(solid)
+    return solid
+
+
+def test_one_bad_part_does_not_stop_the_others():
+    source = open_source([cq.Workplane().box(1, 1, 1), hollow()])
     assert len(source.mesh(0.1, 0.3).parts) == 1
     assert any("left out" in note.text for note in source.notes)
 

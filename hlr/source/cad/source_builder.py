@@ -21,25 +21,25 @@ def build_source(
     """Split leaves into parts and make a source of them.
 
     A caller's shapes are not copied; those of a file are released. wires_too: edges without faces are parts as well.
+    They are anyway where there are no faces at all, as of a sketch or a path: nothing hides them.
 
     Raises:
-        SourceError: there are no shapes, or none has faces and wires are left out.
+        SourceError: there are no shapes, or they have neither faces nor edges.
     """
     # In a file, wires with the name of a part that is drawn are its construction lines, axes or sketches: leaving them
     # out is worth a remark. Wires with a name of their own, or of a caller, may be wanted: a warning.
     of_file = kind not in ("object", "script")
     collector = PartCollector(_shapes_of(leaves, of_file), leaves)
     prototypes = collector.prototypes
-    has_faces = prototypes.has_faces
-    parts = [part for part in collector.parts if wires_too or has_faces[part.prototype]]
-    wires = [part for part in collector.parts if not wires_too and not has_faces[part.prototype]]
     if not collector.parts:
         raise SourceError(f"{name} holds no shapes: there is nothing to draw.")
-    if not parts:
-        raise SourceError(
-            f"{name} holds {_edges(wires, prototypes)} but no faces: a hidden-line drawing needs surfaces "
-            "(export solids or shells instead of wires)."
-        )
+    has_faces = prototypes.has_faces
+    if not any(has_faces):
+        if not prototypes.counts[:, 1].any():
+            raise SourceError(f"{name} holds no faces and no edges: there is nothing to draw.")
+        wires_too = True
+    parts = [part for part in collector.parts if wires_too or has_faces[part.prototype]]
+    wires = [part for part in collector.parts if not wires_too and not has_faces[part.prototype]]
     drawn = {part.product for part in parts if of_file}
     all_notes = [
         *notes,
