@@ -12,6 +12,7 @@ from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.colors import color_of_wrapper
 from hlr.source.cad.occt_import import load_occt
 from hlr.source.cad.parts import Leaf
+from hlr.source.cad.shapes import make_compound
 from hlr.source.cad.source_builder import build_source
 from hlr.source.packages import package_of
 from hlr.tables.readers import what_to_pass
@@ -70,13 +71,22 @@ def _cadquery(thing: Any, name: str, color: Color | None, opacity: float) -> lis
         own = _name_or_empty(thing.name)
         return _inside(own, _assembly(thing, None, color, opacity, own or name))
     if _is_instance_of(thing, "Workplane"):
-        shapes = [item for item in thing.vals() if _is_instance_of(item, "Shape")]
-        return [leaf for item in shapes for leaf in to_leaves(item, name, color, opacity)]
+        stack = [item for item in thing.vals() if _is_instance_of(item, "Shape", "Sketch", "Workplane", "Assembly")]
+        return [leaf for item in stack for leaf in to_leaves(item, name, color, opacity)]
     if _is_instance_of(thing, "Sketch"):
-        return to_leaves(thing.moved() if not thing.locs else thing.val(), name, color, opacity)
+        return _sketch(thing, name, color, opacity)
     if _is_instance_of(thing, "Shape"):
         return [] if thing.wrapped is None else [Leaf(thing.wrapped, name, color, opacity=opacity)]
     raise SourceError(f"A cadquery.{type(thing).__name__} cannot be drawn: pass a Workplane, a Shape or an Assembly.")
+
+
+def _sketch(sketch: Any, name: str, color: Color | None, opacity: float) -> list[Leaf]:
+    """One leaf: the faces of a cq.Sketch at each of its places, or its edges while it has no faces.
+
+    What is selected in it, vertices or places, changes nothing.
+    """
+    shapes = [item.wrapped for item in (sketch if sketch.locs else sketch.moved())]
+    return [Leaf(make_compound(shapes), name, color, opacity=opacity)] if shapes else []
 
 
 def _assembly(node: Any, place: Any, color: Color | None, opacity: float, name: str, path: str = "") -> list[Leaf]:
