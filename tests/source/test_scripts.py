@@ -84,6 +84,7 @@ def test_build123d(script):
         ("result = 'abc'\n", 'The variable "result" of model.py is no shape, but str'),
         ("if __name__ == '__main__':\n    result = 1\n", 'under if __name__ == "__main__" is not run'),
         ("show_object(5)\n", "shows something that is no shape"),
+        (CQ + "result = box.faces('>Z').workplane()\n", r"shows something without a shape in it \(Workplane\)"),
     ],
 )
 def test_errors_are_one_sentence(script, text, sentence):

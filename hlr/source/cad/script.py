@@ -34,6 +34,7 @@ from hlr.source.cad.parts import Leaf
 from hlr.source.cad.script_parameters import compiled
 from hlr.source.cad.source_builder import build_source
 from hlr.source.cad.viewers import Showing, Shown, stand_ins
+from hlr.tables.entry import listed
 
 _RESULT_VARIABLE = "result"
 
@@ -65,14 +66,17 @@ def open_script(path: Path, var: str | None = None, parameters: Mapping[str, Par
     if left_out and not leaves:
         raise SourceError(f"{path.name} shows something that is no shape: {next(iter(left_out.values()))}")
     if not leaves:
-        raise SourceError(_nothing_shown(path, values))
+        raise SourceError(_nothing_shown(path, values, [type(thing).__name__ for thing, _, _ in chosen]))
     if left_out:
         why += f", without what is no shape ({', '.join(left_out)})"
     return build_source(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}.")])
 
 
-def _nothing_shown(path: Path, values: dict[str, Any]) -> str:
-    """One sentence on a script that shows nothing."""
+def _nothing_shown(path: Path, values: dict[str, Any], empty: list[str]) -> str:
+    """One sentence on a script that shows nothing. empty: types of what it shows, without a shape in it."""
+    if empty:
+        what = listed(list(dict.fromkeys(empty)), "and")
+        return f"{path.name} shows something without a shape in it ({what}): there is nothing to draw."
     if _RESULT_VARIABLE in values and not _is_shape(values[_RESULT_VARIABLE]):
         kind = type(values[_RESULT_VARIABLE]).__name__
         return f'The variable "{_RESULT_VARIABLE}" of {path.name} is no shape, but {kind}: assign a shape to it.'
