@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from hlr.common.types import Color, Rgba
+from hlr.common.types import Rgba
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError
 from hlr.source.cad.annotation import AnnotationFilter, label_entry, left_out_note
@@ -19,6 +19,7 @@ from hlr.source.cad.occt_import import silence_stdout
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.shapes import sub_shapes, with_location
 from hlr.source.cad.source_builder import build_source
+from hlr.source.cad.sub_shape_colors import SubShapeColors, of_solids_and_faces
 
 MAX_DEPTH = 200
 """Levels of an assembly that are followed: a file that refers to itself would have no end."""
@@ -99,7 +100,7 @@ class _AssemblyTree:
         self._left_out = 0
         # Which leaves are faces without a name, by index: several of one assembly become one leaf.
         self._nameless: set[int] = set()
-        self._known_colors: dict[str, tuple[dict[Any, Color], dict[Any, float]]] = {}
+        self._known_colors: dict[str, SubShapeColors] = {}
 
     def walk(self, fallback: str, annotation: AnnotationFilter | None = None) -> None:
         """Collect the leaves. annotation: removed from them, unless nothing else would be left."""
@@ -184,23 +185,16 @@ class _AssemblyTree:
         for index in reversed(found[1:]):
             del self.leaves[index]
 
-    def _sub_shape_colors(self, product: Any) -> tuple[dict[Any, Color], dict[Any, float]]:
+    def _sub_shape_colors(self, product: Any) -> SubShapeColors:
         """Colours, and opacities below one, of the solids and faces of a product, by TShape."""
-
         key = label_entry(product)
-        found = self._known_colors.get(key)
-        if found is None:
-            found = self._known_colors[key] = ({}, {})
+        if key not in self._known_colors:
             children = new_collection("labels")
             self.shapes.GetSubShapes_s(product, children)
-            for i in range(1, children.Length() + 1):
-                color = self._color(children.Value(i))
-                if color is not None:
-                    shape = self.shapes.GetShape_s(children.Value(i)).TShape()
-                    found[0][shape] = color[:3]
-                    if color[3] < 1.0:
-                        found[1][shape] = color[3]
-        return found
+            labels = [children.Value(i) for i in range(1, children.Length() + 1)]
+            colored = [(self.shapes.GetShape_s(label), self._color(label)) for label in labels]
+            self._known_colors[key] = of_solids_and_faces(colored)
+        return self._known_colors[key]
 
     def _color(self, label: Any) -> Rgba | None:
         from OCP.Quantity import Quantity_ColorRGBA
