@@ -21,6 +21,8 @@ CLOSE = 1e-6
 SHORT = 100.0
 """Times `CLOSE`: no part ends at a step along so short a way. Where its border crosses the step, its sides differ."""
 
+_NO_PIECES = np.zeros((0, 2, 2))
+
 
 def without_jogs(
     drawing: Drawing, planes: Planes, cut: Sequence[tuple[str, list[Floats]]], whose: Mapping[str, str]
@@ -56,24 +58,41 @@ def without_jogs(
 def _going_on(x: float, close: float, sides: Mapping[str, Floats]) -> dict[str, Floats]:
     """Where parts go on across a step and no other part ends at it: pieces (n, 2, 2) of the step, by name.
 
-    x: of the step; sides: of the faces of each part
+    x: of the step; sides: of the cut faces of each part
     """
-    heights = np.concatenate([np.zeros(0), *(of_part[..., 1].ravel() for of_part in sides.values())])
-    if not len(heights):
-        return {}
-    step = np.array([[[x, heights.min() - close], [x, heights.max() + close]]])
-    shift = np.array([2.0 * close, 0.0])
-    both: dict[str, Floats] = {}
+    step = _whole_step(x, close, sides)
+    across: dict[str, Floats] = {}
     ends: dict[str, Floats] = {}
     for name, of_part in sides.items():
-        left, right = (inside(step + way, of_part, winding=True) - way for way in (-shift, shift))
-        both[name] = inside(right - shift, of_part, winding=True) + shift
-        one = np.concatenate([_without(left, right, close), _without(right, left, close)])
-        ends[name] = one[np.abs(one[:, 1, 1] - one[:, 0, 1]) > SHORT * close]
-    for name, own in both.items():
-        others = [pieces for other, pieces in ends.items() if other != name]
-        both[name] = _without(own, np.concatenate([np.zeros((0, 2, 2)), *others]), close)
-    return {name: own for name, own in both.items() if len(own)}
+        on_left = _inside_beside(step, -2.0 * close, of_part)
+        on_right = _inside_beside(step, 2.0 * close, of_part)
+        across[name] = _inside_beside(on_right, -2.0 * close, of_part)
+        ends[name] = _on_one_side_only(on_left, on_right, close)
+    found = {}
+    for name, own in across.items():
+        ends_of_others = [pieces for other, pieces in ends.items() if other != name]
+        found[name] = _without(own, np.concatenate([_NO_PIECES, *ends_of_others]), close)
+    return {name: pieces for name, pieces in found.items() if len(pieces)}
+
+
+def _whole_step(x: float, close: float, sides: Mapping[str, Floats]) -> Floats:
+    """A step as one upright piece (1, 2, 2), as long as all cut faces are high; (0, 2, 2) where there are none."""
+    heights = np.concatenate([np.zeros(0), *(of_part[..., 1].ravel() for of_part in sides.values())])
+    if not len(heights):
+        return _NO_PIECES
+    return np.array([[[x, heights.min() - close], [x, heights.max() + close]]])
+
+
+def _inside_beside(pieces: Floats, away: float, sides: Floats) -> Floats:
+    """What of upright pieces (n, 2, 2) lies in cut faces, where one looks this far beside it (to the left below 0)."""
+    shift = np.array([away, 0.0])
+    return np.asarray(inside(pieces + shift, sides, winding=True) - shift)
+
+
+def _on_one_side_only(on_left: Floats, on_right: Floats, close: float) -> Floats:
+    """Where a part ends at a step: pieces that have a cut face on one side of it, but for short ones."""
+    ends = np.concatenate([_without(on_left, on_right, close), _without(on_right, on_left, close)])
+    return np.asarray(ends[np.abs(ends[:, 1, 1] - ends[:, 0, 1]) > SHORT * close])
 
 
 def _is_on_step(line: Line, x: float, close: float, levels: Sequence[float], planes: Planes) -> bool:
@@ -108,7 +127,7 @@ def _without(pieces: Floats, gone: Floats, close: float) -> Floats:
 
 def _as_loops(pieces: Floats, close: float) -> Floats:
     """Narrow boxes around upright pieces (n, 2, 2), as sides, anticlockwise."""
-    found = [np.zeros((0, 2, 2))]
+    found = [_NO_PIECES]
     for piece in pieces:
         x, (low, high) = piece[0, 0], np.sort(piece[:, 1])
         low, high = low - close, high + close
