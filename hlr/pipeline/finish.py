@@ -87,8 +87,6 @@ def finished(
     lines, fill, empty = cut_at_window(lines, fill, frame, planner)
     empty = empty or _empty(lines, fill)
     page, misfit = (None, ()) if window is not None else page_of(placement, lines)
-    lap(clock, "linework", started)
-    clock["total"] = sum(clock.values())
     counters = {**_counters(solved, lines, fill), "left_out": shown.left_out}
     if not plan.crossings and counters["seeds"]:
         for name in ("crossing search", "piercing search"):
@@ -102,7 +100,7 @@ def finished(
         planner.spent(name, sum([seconds[s] for s in steps]))
     cuts = sum([sum(planner.cost(name).values()) for name in ("near clipping", "side clipping")])
     rescued = planner.cost("rescue of faces")
-    return Drawing(
+    drawing = Drawing(
         source=source.name,
         view=stated,
         scale=placement.scale,
@@ -133,6 +131,9 @@ def finished(
         group=shown.group,
         reading=getattr(source, "reading", ""),
     )
+    lap(clock, "linework", started)
+    clock["total"] = sum(clock.values())
+    return drawing
 
 
 STEPS = {

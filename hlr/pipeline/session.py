@@ -99,10 +99,10 @@ class Session:
         self.views = views
         self.bounds = self.source.bounds()
         self.cameras = [resolve(view, options, self.source.frame, self.bounds) for view in views]
-        lap(self.clock, "source", started)
-        self.progress("tessellate", 0.0)
         placements = [placing(camera, options, self.source, self.bounds) for camera in self.cameras]
         self.placements = of_one_scale(placements, options)
+        lap(self.clock, "source", started)
+        self.progress("tessellate", 0.0)
 
     def scene_at(
         self, deflection: float, angle: float = ANGLE, planner: Planner | None = None, coarser: float = 1.0
@@ -129,6 +129,7 @@ class Session:
         With a page or a size to fit into, the scale depends on the outlines: these are then traced here.
         lines_alone: nothing but lines is made of the drafts, so a sphere may be meshed coarsely.
         """
+        started, meshing = perf_counter(), 0.0
         planner = Planner(drawing_effects(), self.options)
         note_reading(planner, self.source)
         with planner.deciding():
@@ -138,8 +139,9 @@ class Session:
             perspective = any([camera.eye is not None for camera in self.cameras])
         coarser = 1.0 if planner.on("fine mesh", Facts(sphere=sphere, perspective=perspective)) else SPHERE_MESH
         for _ in range(MOST_MESHINGS):
-            finest = self._finest()
+            finest, begun = self._finest(), perf_counter()
             self.scene, meshed = self.scene_at(finest, self.placements[0].tolerances.angle, planner, coarser)
+            meshing += perf_counter() - begun
             note_meshing(planner, self.scene)
             pairs = zip(self.cameras, self.placements, strict=True)
             drafts = [self._draft(camera, placement, planner.fork()) for camera, placement in pairs]
@@ -152,6 +154,8 @@ class Session:
         self.parts = meshed.parts if self.options.section is not None else ()
         self.looks = self.source.appearances() if self.source.transparent() else {}
         self.remarks = [] if self.options.see_through else hiding(self.scene, self.looks)
+        # Images and the sizes of their outlines belong to all views, as the scene does.
+        lap(self.clock, "scene", started + meshing)
         return drafts
 
     def _finest(self) -> float:

@@ -79,8 +79,12 @@ def draw_sections(
 
     options: checked. Raises as that, and OptionError where a plane cuts nothing or leaves nothing.
     """
+    started = perf_counter()
     opened = open_selected(source, options)
+    reading = perf_counter() - started
     groups = groups_of(opened, views, options, progress)
+    for group in groups:
+        group.session.clock["source"] += reading
     if noted is not None:
         early: list[list[Note]] = [[] for _ in views]
         for group in groups:
