@@ -14,6 +14,7 @@ import numpy as np
 from hlr.common.types import Floats
 from hlr.errors import SourceError
 from hlr.source.cad.cut_check import CutCheck, has_surfaces
+from hlr.source.cad.flat_faces import flat_heights
 from hlr.source.cad.occt_collections import new_collection
 from hlr.source.cad.part_shapes import OcctShapes
 from hlr.source.cad.parts import Leaf
@@ -23,9 +24,6 @@ from hlr.source.stepped import Stepped
 
 NEAR = 1e-9
 """Of the size of a shape: a plane that comes no deeper into it than this only touches it."""
-
-PARALLEL = 1e-9
-"""Sine of the angle of two planes that count as parallel."""
 
 LOOSER = (1e-8, 1e-7, 1e-6)
 """Of the size of a shape: how much looser it is cut again where it was not cut as it should."""
@@ -82,22 +80,9 @@ def put_on_faces(planes: Stepped, shape: Any, near: float) -> Stepped:
 
     A film would be left between the two, too thin to be told from either.
     """
-    from OCP.BRepAdaptor import BRepAdaptor_Surface
-    from OCP.GeomAbs import GeomAbs_SurfaceType
-    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
-    from OCP.TopoDS import TopoDS
-
-    found = []
-    for face in sub_shapes(shape, Kind.TopAbs_FACE):
-        surface = BRepAdaptor_Surface(TopoDS.Face(face))
-        if surface.GetType() == GeomAbs_SurfaceType.GeomAbs_Plane:
-            axis = surface.Plane().Axis()
-            way, at = axis.Direction(), axis.Location()
-            if float(np.linalg.norm(np.cross([way.X(), way.Y(), way.Z()], planes.normal))) <= PARALLEL:
-                found.append(float(np.array([at.X(), at.Y(), at.Z()]) @ planes.normal))
-    if not found:
+    heights = flat_heights(shape, planes.normal)
+    if not len(heights):
         return planes
-    heights = np.array(found)
     nearest = heights[np.abs(heights - planes.levels[:, None]).argmin(axis=1)]
     return replace(planes, levels=np.where(np.abs(planes.levels - nearest) <= near, nearest, planes.levels))
 
