@@ -85,9 +85,27 @@ fn try_cut(
     if body.solids == 0 && body.is_nested() {
         return Err("one body of its faces lies within another");
     }
+    let cut = cut_body(&body, plane, stopped);
+    match through_corners(&body, plane) {
+        Some(moved) if cut.is_err() => cut_body(&body, &moved, stopped).or(cut),
+        _ => cut,
+    }
+}
+
+/// The plane in the middle of the corners that lie on it, where it runs beside them. A sphere whose seam lies nearly in
+/// the plane is cut along the seam: between the two, what is left of the sphere would be too narrow to follow.
+fn through_corners(body: &Body, plane: &Plane) -> Option<Plane> {
+    let ends = || body.edges.iter().flat_map(|edge| edge.end_points).flatten();
+    let heights = || ends().filter(|point| plane.holds(point)).map(|point| plane.height(&point));
+    let [low, high] = [heights().reduce(f64::min)?, heights().reduce(f64::max)?];
+    let middle = 0.5 * (low + high);
+    (middle != 0.0).then_some(Plane { level: plane.level + middle, ..*plane })
+}
+
+fn cut_body(body: &Body, plane: &Plane, stopped: &(dyn Fn() -> bool + Sync)) -> Result<Cut, &'static str> {
     let deflection = COARSE * body.size();
     let watch = Watch { stopped, done: &AtomicUsize::new(0) };
-    let cornered = with_corners(&body, plane, CUT_BULGE * deflection);
+    let cornered = with_corners(body, plane, CUT_BULGE * deflection);
     let coarse = match tessellate(&cornered, deflection, COARSE_ANGLE, LIMITS, &watch) {
         Ok(coarse) => coarse,
         Err(Ended::Stopped) => return Ok(Cut::Stopped),
@@ -96,7 +114,7 @@ fn try_cut(
     if coarse.faces.iter().any(|face| face.fault.is_some()) {
         return Err("a face has no mesh");
     }
-    let divided = DividedBody::new(body, coarse, plane, CUT_BULGE * deflection)?;
+    let divided = DividedBody::new(body.clone(), coarse, plane, CUT_BULGE * deflection)?;
     if divided.is_whole() {
         return Ok(Cut::Whole);
     }
