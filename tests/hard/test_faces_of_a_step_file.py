@@ -133,10 +133,12 @@ def test_faces_with_names_are_parts(path):
     assert sorted(part.name for part in drawing.parts) == sorted(f"face {number}" for number in range(11))
 
 
-def test_a_surface_that_is_there_twice_is_joined_once(path, monkeypatch):
+@pytest.fixture
+def sewn_times(monkeypatch) -> list[object]:
+    """One entry for each time that faces are sewn."""
     from OCP import BRepBuilderAPI
 
-    asked = []
+    asked: list[object] = []
 
     class Counted(BRepBuilderAPI.BRepBuilderAPI_Sewing):
         def Perform(self, *args):  # noqa: N802
@@ -144,6 +146,10 @@ def test_a_surface_that_is_there_twice_is_joined_once(path, monkeypatch):
             super().Perform(*args)
 
     monkeypatch.setattr(BRepBuilderAPI, "BRepBuilderAPI_Sewing", Counted)
+    return asked
+
+
+def test_a_surface_that_is_there_twice_is_joined_once(path, sewn_times):
     whole = cq.Compound.makeCompound(shells(block()))
     assembly = cq.Assembly(name="two")
     for x in (0, 60):
@@ -151,7 +157,24 @@ def test_a_surface_that_is_there_twice_is_joined_once(path, monkeypatch):
     assembly.export(path)
     source = open_step(Path(path))
     assert len({part.prototype for part in source.parts}) == 1
-    assert len(asked) == 1
+    assert len(sewn_times) == 1
+
+
+def test_a_surface_of_products_without_a_name_that_is_there_thrice_is_joined_once(path, sewn_times):
+    surface = cq.Compound.makeCompound(loose(block()))
+    places = [cq.Location(cq.Vector(60 * k, 5 * k, 0), cq.Vector(1, 2, 3), 20 * k) for k in range(3)]
+    writer = STEPControl_Writer()
+    whole = cq.Compound.makeCompound([surface.moved(place) for place in places])
+    writer.Transfer(whole.wrapped, Mode.STEPControl_AsIs)
+    writer.Write(path)
+    source = open_step(Path(path))
+    assert len(source.parts) == 3
+    assert len({part.prototype for part in source.parts}) == 1
+    assert len(sewn_times) == 1
+    same(
+        hlr.draw(path, "iso", **AT_SIZE),
+        hlr.draw(cq.Compound.makeCompound([block().moved(place) for place in places]), "iso", **AT_SIZE),
+    )
 
 
 def test_faces_keep_the_colours_of_their_products(path):

@@ -13,7 +13,7 @@ from hlr.errors import SourceError
 from hlr.source.cad.annotation import AnnotationFilter, label_entry, left_out_note
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.colors import srgb
-from hlr.source.cad.loose_faces import as_one, is_loose
+from hlr.source.cad.loose_faces import JoinedLeaves, is_loose
 from hlr.source.cad.occt_collections import new_collection
 from hlr.source.cad.occt_import import silence_stdout
 from hlr.source.cad.parts import Leaf
@@ -101,6 +101,7 @@ class _AssemblyTree:
         # Which leaves are faces without a name, by index: several of one assembly become one leaf.
         self._nameless: set[int] = set()
         self._known_colors: dict[str, SubShapeColors] = {}
+        self._joined = JoinedLeaves()
 
     def walk(self, fallback: str, annotation: AnnotationFilter | None = None) -> None:
         """Collect the leaves. annotation: removed from them, unless nothing else would be left."""
@@ -113,7 +114,7 @@ class _AssemblyTree:
         self.leaves, self.notes, self._nameless = [], [], set()
         for i in range(1, free.Length() + 1):
             self._visit(free.Value(i), TopLoc_Location(), None, fallback, [], ())
-        self._join_nameless(0, fallback, ())
+        self._join_nameless(0, fallback, (), TopLoc_Location())
         if not self._left_out:
             return
         if any(sub_shapes(leaf.shape, Kind.TopAbs_FACE) for leaf in self.leaves):
@@ -150,7 +151,7 @@ class _AssemblyTree:
             before = len(self.leaves)
             for i in range(1, children.Length() + 1):
                 self._visit(children.Value(i), place, color, name, path, names)
-            self._join_nameless(before, name, assemblies)
+            self._join_nameless(before, name, assemblies, place)
             if not _is_nameless(product, label):
                 self._nameless = {index for index in self._nameless if index < before}
             return
@@ -175,13 +176,16 @@ class _AssemblyTree:
             self._nameless.add(len(self.leaves))
         self.leaves.append(leaf)
 
-    def _join_nameless(self, before: int, name: str, assemblies: tuple[str, ...]) -> None:
-        """Make one leaf, called `name`, of the faces without a name among the leaves behind the first `before`."""
+    def _join_nameless(self, before: int, name: str, assemblies: tuple[str, ...], place: Any) -> None:
+        """Make one leaf, called `name`, of the faces without a name among the leaves behind the first `before`.
+
+        assemblies, place: those that it is in, and where the innermost stands
+        """
         found = sorted(index for index in self._nameless if index >= before)
         if len(found) < 2:
             return
         self._nameless.difference_update(found)
-        self.leaves[found[0]] = as_one([self.leaves[index] for index in found], name, assemblies)
+        self.leaves[found[0]] = self._joined.as_one([self.leaves[index] for index in found], name, assemblies, place)
         for index in reversed(found[1:]):
             del self.leaves[index]
 
