@@ -79,12 +79,14 @@ pub fn scene(tables: &Tables, facts: &Facts) -> Scene {
     let triangles = (0..triangle_part.len()).into_par_iter().with_min_len(ALONE);
     let curved: Vec<bool> = triangles.map(|t| !tables.face_planar[face_of(t)]).collect();
     let edge_part: Vec<i32> = edges().map(|e| triangle_part[facts.around(e)[0] as usize]).collect();
+    let of_brep = |part: i32| tables.brep[part as usize];
     // Side by side: edges of the source, and bodies.
     let of_edges = || {
         let (mut walks, loose) = source_walks(tables, &facts.edges);
         let kind = kinds(facts.edges.len() + loose.len(), &walks);
         walks.straight = between_planes(&walks, facts, &kind, &curved);
-        let edge_curved = edge_curved(facts, &kind, &curved, &face_of, tables.face_planar.len());
+        let edge_curved =
+            edge_curved(facts, &kind, &curved, &face_of, tables.face_planar.len(), &|e| of_brep(edge_part[e]));
         (walks, loose, kind, edge_curved)
     };
     let of_bodies = || {
@@ -181,15 +183,17 @@ fn reports(tables: &Tables, facts: &Facts, part_of: &[i32], edge_part: &[i32], b
 /// rounding decides along which of its edges it folds. Inside a planar face nothing folds: needles between corners in
 /// one line are turned any way.
 ///
-/// An edge whose two triangles lie on top of one another, folded by more than a right angle, shows none: no smooth
-/// surface does that between two chords. Where edge curve and surface differ by the file's own tolerance, the
-/// tessellation laps over itself in slivers.
+/// An edge of a B-rep's mesh whose two triangles lie on top of one another, folded by more than a right angle, shows
+/// none: no smooth surface does that between two chords. Where edge curve and surface differ by the file's own
+/// tolerance, the tessellation laps over itself in slivers. A mesh without B-rep has such edges where it is that sharp,
+/// and where the crease angle is larger still, the outline is all that is drawn of them.
 fn edge_curved(
     facts: &Facts,
     kind: &[u8],
     curved: &[bool],
     face_of: &(dyn Fn(usize) -> usize + Sync),
     faces: usize,
+    of_brep: &(dyn Fn(usize) -> bool + Sync),
 ) -> Vec<bool> {
     let mut run_into = vec![false; faces];
     for e in (0..facts.edges.len()).filter(|&e| kind[e] == SMOOTH) {
@@ -197,7 +201,7 @@ fn edge_curved(
     }
     let shows = |&t: &i32| curved[t as usize] || run_into[face_of(t as usize)];
     let in_plane = |e: usize| kind[e] == INTERIOR && facts.around(e).iter().all(|&t| !curved[t as usize]);
-    let on_top = |e: usize| facts.fold[e] < 0.0 && facts.balance[e] == 0;
+    let on_top = |e: usize| of_brep(e) && facts.fold[e] < 0.0 && facts.balance[e] == 0;
     let of = |e: usize| !on_top(e) && !in_plane(e) && facts.around(e).iter().any(shows);
     (0..facts.edges.len()).into_par_iter().with_min_len(1 << 12).map(of).collect()
 }
