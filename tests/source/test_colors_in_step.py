@@ -16,11 +16,12 @@ from OCP.GProp import GProp_GProps
 from OCP.Quantity import Quantity_Color, Quantity_ColorRGBA, Quantity_TypeOfColor
 from OCP.STEPCAFControl import STEPCAFControl_Reader, STEPCAFControl_Writer
 from OCP.TCollection import TCollection_ExtendedString
+from OCP.TDF import TDF_AttributeSequence, TDF_LabelSequence
 from OCP.TDocStd import TDocStd_Document
 from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Compound, TopoDS_Iterator
-from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
+from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_GraphNode
 from OCP.XCAFPrs import XCAFPrs, XCAFPrs_IndexedDataMapOfShapeStyle
 
 import hlr
@@ -81,12 +82,32 @@ class Document:
         self.paint(self.shapes.AddComponent(assembly, product, TopLoc_Location(shift)), color_of_second)
         self.shapes.UpdateAssemblies()
 
+    def deep_place(self, product: Any, color: tuple[float, ...]) -> None:
+        """An assembly of two assemblies of two: the first of the second has a colour of its own."""
+        places = [TopLoc_Location(), _along_x(30)]
+        inner, outer = self.shapes.NewShape(), self.shapes.NewShape()
+        parts = [self.shapes.AddComponent(inner, product, place) for place in places]
+        halves = [self.shapes.AddComponent(outer, inner, place) for place in [TopLoc_Location(), _along_x(100)]]
+        self.shapes.UpdateAssemblies()
+        way, nodes = TDF_LabelSequence(), TDF_AttributeSequence()
+        way.Append(halves[1])
+        way.Append(parts[0])
+        assert self.shapes.SetSHUO(way, XCAFDoc_GraphNode())
+        self.shapes.GetAllComponentSHUO_s(halves[1], nodes)
+        self.paint(nodes.Value(1).Label(), color)
+
     def write(self, path: Path) -> Path:
         writer = STEPCAFControl_Writer()
         writer.SetColorMode(True)
         writer.Transfer(self.document)
         writer.Write(str(path))
         return path
+
+
+def _along_x(shift: float) -> TopLoc_Location:
+    move = gp_Trsf()
+    move.SetTranslation(gp_Vec(shift, 0, 0))
+    return TopLoc_Location(move)
 
 
 def shells_of_their_own(document: Document) -> None:
@@ -125,6 +146,10 @@ def solids_placed_twice(document: Document) -> None:
     document.placed_twice(document.product(solid, (faces(solid)[1], RED), own=GREEN), BLUE)
 
 
+def one_place_deep_in_an_assembly(document: Document) -> None:
+    document.deep_place(document.product(box(), own=GREEN), RED)
+
+
 DOCUMENTS = (
     shells_of_their_own,
     one_shell_of_two,
@@ -133,6 +158,7 @@ DOCUMENTS = (
     shell_of_a_solid_with_a_face,
     shells_placed_twice,
     solids_placed_twice,
+    one_place_deep_in_an_assembly,
 )
 
 
@@ -148,6 +174,7 @@ def of_viewer(path: Path) -> Counter[FaceColor]:
     document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
     reader = STEPCAFControl_Reader()
     reader.SetColorMode(True)
+    reader.SetSHUOMode(True)
     reader.ReadFile(str(path))
     reader.Transfer(document)
     tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())

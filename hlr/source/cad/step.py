@@ -34,6 +34,7 @@ def open_step(path: Path, annotations: bool = False) -> BrepSource:
     reader.SetPropsMode(False)
     reader.SetViewMode(False)
     reader.SetMetaMode(False)
+    reader.SetSHUOMode(True)
     missing = [other.name for other in references(path) if not other.is_file()]
     notes = []
     if missing:

@@ -16,6 +16,7 @@ from hlr.source.cad.colors import srgb
 from hlr.source.cad.loose_faces import JoinedLeaves, is_loose
 from hlr.source.cad.occt_collections import new_collection
 from hlr.source.cad.occt_import import silence_stdout
+from hlr.source.cad.overriding_colors import OverridingColors
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.shapes import sub_shapes, with_location
 from hlr.source.cad.source_builder import build_source
@@ -102,6 +103,7 @@ class _AssemblyTree:
         self._nameless: set[int] = set()
         self._known_colors: dict[str, SubShapeColors] = {}
         self._joined = JoinedLeaves()
+        self._overriding = OverridingColors(shapes, self._color)
 
     def walk(self, fallback: str, annotation: AnnotationFilter | None = None) -> None:
         """Collect the leaves. annotation: removed from them, unless nothing else would be left."""
@@ -134,14 +136,14 @@ class _AssemblyTree:
         """Collect the leaves of a label. above: labels on the way to it; assemblies: their names."""
         from OCP.TDF import TDF_Label
 
-        product, color = label, self._color(label)
+        product, path = label, [*above, label]
+        color = self._overriding.of(path) or self._color(label)
         if self.shapes.IsReference_s(label):
             product = TDF_Label()
             self.shapes.GetReferredShape_s(label, product)
             place = place.Multiplied(self.shapes.GetLocation_s(label))
-        # A colour set on the instance wins over the assembly's, which wins over the product's own.
+        # A colour of this place deep in the assembly wins, then the instance's, the assembly's, the product's own.
         color = color or inherited or (self._color(product) if product is not label else None)
-        path = [*above, label]
         name = _name(product) or _name(label) or fallback
         if self.shapes.IsAssembly_s(product) and len(above) < MAX_DEPTH:
             children = new_collection("labels")
