@@ -129,7 +129,7 @@ class Session:
         With a page or a size to fit into, the scale depends on the outlines: these are then traced here.
         lines_alone: nothing but lines is made of the drafts, so a sphere may be meshed coarsely.
         """
-        started, meshing = perf_counter(), 0.0
+        started, counted = perf_counter(), sum(self.clock.values())
         planner = Planner(drawing_effects(), self.options)
         note_reading(planner, self.source)
         with planner.deciding():
@@ -139,9 +139,8 @@ class Session:
             perspective = any([camera.eye is not None for camera in self.cameras])
         coarser = 1.0 if planner.on("fine mesh", Facts(sphere=sphere, perspective=perspective)) else SPHERE_MESH
         for _ in range(MOST_MESHINGS):
-            finest, begun = self._finest(), perf_counter()
+            finest = self._finest()
             self.scene, meshed = self.scene_at(finest, self.placements[0].tolerances.angle, planner, coarser)
-            meshing += perf_counter() - begun
             note_meshing(planner, self.scene)
             pairs = zip(self.cameras, self.placements, strict=True)
             drafts = [self._draft(camera, placement, planner.fork()) for camera, placement in pairs]
@@ -154,8 +153,8 @@ class Session:
         self.parts = meshed.parts if self.options.section is not None else ()
         self.looks = self.source.appearances() if self.source.transparent() else {}
         self.remarks = [] if self.options.see_through else hiding(self.scene, self.looks)
-        # Images and the sizes of their outlines belong to all views, as the scene does.
-        lap(self.clock, "scene", started + meshing)
+        # Images belong to all views, as the scene does. The rest counts in its own stages.
+        lap(self.clock, "scene", started + sum(self.clock.values()) - counted)
         return drafts
 
     def _finest(self) -> float:
@@ -169,6 +168,7 @@ class Session:
         """Give drafts their final scales. Outlines have to fit: they reach beyond the mesh, within the accuracy."""
         if all([placement.settled for placement in self.placements]):
             return
+        started = perf_counter()
         surfaces = self.scene.true_surfaces
         bends = surfaces is not None and bool(surfaces.curved_faces or (np.diff(self.scene.walks.offsets) > 1).any())
         traced, fitted = [], []
@@ -184,6 +184,7 @@ class Session:
                 # At another scale the outlines are traced anew: finer, or less fine.
                 same = placement.tolerances.deflection == before.tolerances.deflection
                 draft.image = (found if same else draft.image).placed(placement)
+        lap(self.clock, "plan", started)
 
     def shown(self, draft: Draft) -> Image:
         """The image as it is drawn: with outlines, clipped, and without glass where the viewer sees through it."""
