@@ -12,6 +12,7 @@ from hlr.common.keywords import record_of, shown
 from hlr.common.numbers import typed
 from hlr.compare.comparison import Comparison
 from hlr.compare.lines.motion import Motion
+from hlr.compare.matching.hatched_areas import without_hatches
 from hlr.compare.matching.judge import judged
 from hlr.compare.matching.pairing import of_one_view
 from hlr.compare.matching.register import translation
@@ -131,7 +132,7 @@ def compare(
 
 def _motion(before: Side, after: Side, tolerance_mm: float, register: Registration) -> Motion:
     """How the second drawing has to be moved to lie on the first."""
-    moving, fixed = after.pieces, before.pieces
+    moving, fixed = without_hatches(after.pieces, before.pieces)
     if register == "translation":
         found = Motion().with_shift(translation(moving, fixed, tolerance_mm)[0])
     else:

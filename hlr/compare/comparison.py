@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -24,6 +24,10 @@ if TYPE_CHECKING:
     from hlr.compare.overlay.picture import Overlay
 
 
+_MOST_NAMES = 3
+"""Of parts, in a summary."""
+
+
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Comparison:
     """What differs between two drawings.
@@ -38,6 +42,7 @@ class Comparison:
     foreign        whether one of them is of another program: nothing is "new" then, but in one of them only
     model_side     which side hlr drew of a model, where the other is a drawing of it: "first" or "second"; else None
     badly_laid     share of the lines that lie on one another, 0 to 1, where that is so little that nothing was judged
+    rehatched      names of the parts that both have hatched in the same places, with other lines: no difference
     left_out       what of each file is no line of its drawing, counted
     view_found     of a model, where it was not said: the view that the other side shows; of two models the usual one
     findings       the differences with their pieces, from which the overlay is drawn
@@ -61,6 +66,7 @@ class Comparison:
     foreign: bool
     model_side: Literal["first", "second"] | None
     badly_laid: float | None
+    rehatched: tuple[str, ...]
     left_out: tuple[dict[str, int], dict[str, int]]
     view_found: str | None
     findings: Findings
@@ -93,6 +99,7 @@ class Comparison:
             foreign=one.foreign or other.foreign,
             model_side=_model_side(before, after),
             badly_laid=badly_laid,
+            rehatched=findings.rehatched,
             left_out=(one.left_out, other.left_out),
             view_found=one.view_found or other.view_found,
             findings=findings,
@@ -156,6 +163,8 @@ class Comparison:
             text = f"scale {ratio(self.scales[0])}, now {ratio(self.scales[1])}; at the scale of the first: {text}"
         elsewhere = [view.name for view in self.views if view.displaced]
         text += f"; elsewhere on the page: {', '.join(elsewhere)}" if elsewhere else ""
+        if self.rehatched:
+            text += f"; hatched with other lines: {_first_of(self.rehatched)}"
         if self.badly_laid is not None:
             share = f"{100.0 * self.badly_laid:.0f} %"
             text = f"only {share} of the lines lie on one another, too few to say who is right: {text}"
@@ -190,6 +199,7 @@ class Comparison:
             "view_found": self.view_found,
             "model_side": self.model_side,
             "badly_laid": self.badly_laid,
+            "rehatched": list(self.rehatched),
             "left_out": list(self.left_out),
             "mm": self.lengths_mm,
             "verdicts_mm": self.verdicts_mm,
@@ -241,6 +251,12 @@ class Comparison:
         path = path_of(file)
         write_all({path: self.rendered(ending_of(path))})
         return path
+
+
+def _first_of(names: Sequence[str]) -> str:
+    """The first few names, and how many there are besides."""
+    more = len(names) - _MOST_NAMES
+    return listed([*names[:_MOST_NAMES], *([f"{more} more"] if more > 0 else [])], "and")
 
 
 def _model_side(before: Side, after: Side) -> Literal["first", "second"] | None:

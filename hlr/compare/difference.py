@@ -39,7 +39,7 @@ class Difference:
                 one has straight pieces where the other has a curve; "doubled": a drawing has the line twice
     place       (x, y) of its middle, millimetres on paper, y up
     length_mm   its length, millimetres on paper
-    line_class  sharp, smooth, seam, outline, boundary or intersection; "unknown" where its file does not say
+    line_class  sharp, smooth, seam, outline, boundary, intersection or hatch; "unknown" where its file does not say
     visible     whether the line is drawn as visible; None: unknown
     part, edge  as its drawing names them; None: unknown
     view        of the page; None: there is one

@@ -12,6 +12,7 @@ import numpy as np
 from hlr.compare.difference import KINDS, UNKNOWN, VERDICTS, Difference, Kind
 from hlr.compare.lines.pieces import Floats, Pieces, joined
 from hlr.compare.lines.sketch import CHORD_SHARE, About
+from hlr.compare.matching.hatched_areas import Hatches, by_part, hatches_of, told_apart
 from hlr.compare.matching.match import Rule, divided_by, once, partners
 from hlr.compare.reading.sides import Side
 from hlr.tables.line_classes import names
@@ -67,12 +68,14 @@ class Findings:
     traces       of each difference its pieces, in the same order
     same         what both sides share, as the first has it; None: nothing was compared
     moved        where the second has what is displaced
+    rehatched    names of the parts that both have hatched in the same places, with other lines
     """
 
     differences: list[Difference] = field(default_factory=list)
     traces: list[Floats] = field(default_factory=list)
     same: Pieces | None = None
     moved: Floats = field(default_factory=lambda: np.zeros((0, 2, 2)))
+    rehatched: tuple[str, ...] = ()
 
     @staticmethod
     def of(several: Sequence[Findings]) -> Findings:
@@ -83,6 +86,7 @@ class Findings:
             [trace for each in several for trace in each.traces],
             joined(every) if every else None,
             np.concatenate([np.zeros((0, 2, 2)), *(each.moved for each in several)]),
+            tuple(dict.fromkeys(name for each in several for name in each.rehatched)),
         ).ranked()
 
     def ranked(self) -> Findings:
@@ -122,7 +126,11 @@ class Findings:
 def judged(before: Side, after: Side, tolerance_mm: float) -> Findings:
     """All differences; the longest of each kind first."""
     found = Findings()
+    hatched = told_apart(before.pieces, after.pieces)
+    if hatched:
+        before, after = (replace(side, pieces=by_part(side.pieces)) for side in (before, after))
     a, b = before.pieces, after.pieces
+    alone = a.take(slice(0)), b.take(slice(0))
     _doubled(found, before, "before", tolerance_mm)
     _doubled(found, after, "after", tolerance_mm)
     for stage in STAGES:
@@ -137,15 +145,34 @@ def judged(before: Side, after: Side, tolerance_mm: float) -> Findings:
             left_a, left_b = _seen(left_a, before, tolerance_mm), _seen(left_b, after, tolerance_mm)
             twice = Rule(_TWICE * tolerance_mm, tolerance_mm, stage.same)
             left_a, left_b = once(left_a, twice)[0], once(left_b, twice)[0]
+            if hatched:
+                alone = _hatched(found, (left_a, left_b), (before, after), tolerance_mm)
+                left_a, left_b = left_a.take(~hatches_of(left_a)), left_b.take(~hatches_of(left_b))
         else:
             _changed(found, stage.kind, both, b, rule, (before.about, after.about))
         if stage.kind == "moved":
             found.moved = _ends(also)
         a, b = left_a, left_b
-    for kind, pieces, side in (("gone", a, before), ("new", b, after)):
+    for kind, pieces, side in (("gone", joined([a, alone[0]]), before), ("new", joined([b, alone[1]]), after)):
         for line in _lines(pieces):
             found.add(_difference(kind, line, side.about, "after" if kind == "new" else "before"), line)
     return found.ranked()
+
+
+def _hatched(
+    found: Findings, left: tuple[Pieces, Pieces], sides: tuple[Side, Side], tolerance_mm: float
+) -> tuple[Pieces, Pieces]:
+    """Of strokes that only one drawing has, those that lie where the other is not hatched. The others are the same."""
+    one, other = (Hatches.of(side.pieces, side.about) for side in sides)
+    strokes = [each.take(hatches_of(each)) for each in left]
+    (both, gone), (also, new) = (
+        one.divided(other, tolerance_mm, strokes[0]),
+        other.divided(one, tolerance_mm, strokes[1]),
+    )
+    found.same = both if found.same is None else joined([found.same, both])
+    names = [whose.name(part) for whose, some in ((one, both), (other, also)) for part in np.unique(some.part).tolist()]
+    found.rehatched = tuple(sorted({name for name in names if name}))
+    return gone, new
 
 
 def _doubled(found: Findings, side: Side, name: Literal["before", "after"], tolerance_mm: float) -> None:

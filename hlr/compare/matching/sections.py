@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from hlr.compare.lines.pieces import Pieces
+from hlr.compare.matching.hatched_areas import Hatches, by_part, without_hatches
 from hlr.compare.matching.register import translation
 
 _FURTHER = re.compile(r"(.+)-[A-Z][0-9]*")
@@ -30,9 +31,20 @@ def sections_of(base: str, names: Sequence[str]) -> list[int]:
 
 
 def likeness(one: Pieces, other: Pieces, tolerance_mm: float) -> float:
-    """Which share of the lines of each, at least, lies on the other where they fit best."""
-    shares = (translation(a, b, tolerance_mm, search=False)[1] for a, b in ((one, other), (other, one)))
-    return round(min(shares), _DIGITS)
+    """Which share of the lines of each, at least, lies on the other where they fit best; of hatches, in its areas."""
+    return round(min(_share(one, other, tolerance_mm), _share(other, one, tolerance_mm)), _DIGITS)
+
+
+def _share(one: Pieces, other: Pieces, tolerance_mm: float) -> float:
+    """Which share of the lines of the first lies on the second."""
+    edges, others = without_hatches(one, other)
+    shift, share = translation(edges, others, tolerance_mm, search=False)
+    if len(edges) == len(one):
+        return share
+    hatches = Hatches.of(by_part(one.shifted(shift)))
+    inside = float(hatches.divided(Hatches.of(by_part(other)), tolerance_mm)[0].lengths.sum())
+    lengths = float(edges.lengths.sum()), float(hatches.pieces.lengths.sum())
+    return (share * lengths[0] + inside) / sum(lengths)
 
 
 def paired_sections(

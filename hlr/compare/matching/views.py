@@ -9,6 +9,7 @@ import numpy as np
 from hlr.compare.compared_view import ComparedView
 from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.pieces import Pieces, joined
+from hlr.compare.matching.hatched_areas import without_hatches
 from hlr.compare.matching.judge import Findings, judged
 from hlr.compare.matching.pairing import pairs_of, view_of, with_views_of
 from hlr.compare.matching.register import translation
@@ -54,7 +55,8 @@ def by_view(
 
 def _laid_on(fixed: Side, moving: Side, tolerance_mm: float) -> tuple[Side, Shift]:
     """A side, moved onto the other where that says something, and by how much."""
-    shift, share = translation(moving.pieces, fixed.pieces, tolerance_mm, search=False)
+    lines, others = without_hatches(moving.pieces, fixed.pieces)
+    shift, share = translation(lines, others, tolerance_mm, search=False)
     if share < _FOUND and float(np.hypot(*shift)) > DISPLACED_MM:
         shift = np.zeros(2)
     x, y = shift.tolist()
