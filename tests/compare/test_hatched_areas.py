@@ -9,6 +9,7 @@ import pytest
 
 import hlr
 from hlr.compare import compare
+from hlr.compare.failing import fails
 from hlr.compare.matching.sections import likeness
 from hlr.compare.reading.sides import side_of
 from hlr.linework.hatching import Pattern, hatched
@@ -174,3 +175,12 @@ def test_a_section_at_another_place_differs(pump, page, view):
     for other in (hlr.draw(pump, view, section=2.5, scale=1), hlr.draw(pump, view, section=-2.5, scale=1)):
         found = compare(page, other)
         assert not found.same and any(each.line_class != "hatch" for each in found.differences)
+
+
+def test_rays_do_not_judge_hatches(pump):
+    """They run across faces, where a model has no line: the drawing that has them would be wrong."""
+    whole = hlr.draw(pump, "front", section=0.0, scale=1)
+    bare = [each for each in whole.lines if each.kind != "hatch" or whole.parts[each.part].name != "pin"]
+    found = compare(replace(whole, lines=tuple(bare)), pump)
+    assert hatch_mm(found).keys() == {"new"} and found.wrong_mm == 0.0 and found.unjudged_mm > 50.0
+    assert fails(found, "ours")  # nothing of it was judged

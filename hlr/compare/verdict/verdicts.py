@@ -77,7 +77,8 @@ def with_verdicts(
     side = before if before.behind is not None else after
     if side.behind is None or (before.behind is not None and after.behind is not None):
         return found
-    chosen = [n for n, each in enumerate(found.differences) if each.kind in _JUDGED][:_MOST_JUDGED]
+    judged = [each.kind in _JUDGED and each.line_class != "hatch" for each in found.differences]
+    chosen = np.flatnonzero(judged)[:_MOST_JUDGED].tolist()
     model = TrueLines.of(side.behind.source, side.behind.drawing, tolerance_mm) if chosen else None
     if model is None:
         return found
@@ -233,4 +234,4 @@ def _polyline(each: Difference, tolerance_mm: float) -> Difference:
 
 
 _JUDGED = ("gone", "new", "moved", "visibility changed")
-"""Kinds on which rays say something."""
+"""Kinds on which rays say something, but for hatches: those run across faces, where a model has no line."""
