@@ -22,6 +22,9 @@ SPACINGS = (0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0)
 LINES_A_SIDE = 8.0
 """In a square face there are about so many spacings to a side, as far as SPACINGS and the paper allow."""
 
+LEAST_A_SIDE = 3.0
+"""The same in the smallest section of a part, as far as SPACINGS allow: the hatch is that of its largest one."""
+
 PAPER_SHARE = 70.0
 """The shorter side of the paper over this is the widest spacing."""
 
@@ -64,28 +67,36 @@ class Pattern:
         return self.angle == other.angle and wide < APART * narrow
 
 
-def patterns_of(parts: Mapping[str, Sequence[Floats]], paper: float) -> dict[str, Pattern]:
-    """The pattern of each part.
+def patterns_on_sheet(sections: Sequence[Mapping[str, Sequence[Floats]]], paper: float) -> dict[str, Pattern]:
+    """The pattern of each part, the same in all sections of a sheet. Parts that touch in one of them differ.
 
-    parts: the loops (k, 2) of its cut faces, millimetres on paper, holes the other way round; paper: the shorter side
+    sections: by part, the loops (k, 2) of its cut faces, millimetres on paper, holes the other way round
+    paper: the shorter side
     """
-    areas = {name: abs(sum(map(_area, loops))) for name, loops in parts.items()}
+    areas: dict[str, list[float]] = {}
+    across: dict[str, float] = {}
+    for parts in sections:
+        for name, loops in parts.items():
+            low, high = _box(loops)
+            areas.setdefault(name, []).append(abs(sum(map(_area, loops))))
+            across[name] = max(float(np.hypot(*(high - low))), across.get(name, 0.0))
     # The large faces come first: they have the usual lines.
-    order = sorted(parts, key=lambda name: (-areas[name], name))
-    boxes = np.array([_box(parts[name]) for name in order]).reshape(-1, 2, 2)
-    sides = [sides_of(parts[name]) for name in order]
-    found: list[Pattern] = []
-    for k, name in enumerate(order):
-        near = [found[other] for other in _meeting(boxes, k) if _touch(boxes[k], boxes[other], sides[k], sides[other])]
-        low, high = boxes[k]
-        least = float(np.hypot(*(high - low))) / MOST_ACROSS
+    order = sorted(areas, key=lambda name: (-max(areas[name]), name))
+    touching: dict[str, set[str]] = {name: set() for name in order}
+    for parts in sections:
+        for name, other in _touching(parts, [name for name in order if name in parts]):
+            touching[name].add(other)
+    found: dict[str, Pattern] = {}
+    for name in order:
+        near = [found[other] for other in found if other in touching[name]]
+        least = across[name] / MOST_ACROSS
         usual = _usual(areas[name], paper)
         choices = [Pattern(angle, max(_stepped(usual, steps), least)) for angle, steps in CANDIDATES]
         # Best is another direction; where neighbours have both, another spacing.
         turned = [own for own in choices[:2] if all(own.angle != other.angle for other in near)]
         apart = [own for own in choices if not any(map(own.like, near))]
-        found.append(next(iter((*turned, *apart)), choices[len(near) % len(choices)]))
-    return dict(zip(order, found, strict=True))
+        found[name] = next(iter((*turned, *apart)), choices[len(near) % len(choices)])
+    return found
 
 
 def hatched(loops: Sequence[Floats], pattern: Pattern, shortest: float) -> Floats:
@@ -99,9 +110,9 @@ def hatched(loops: Sequence[Floats], pattern: Pattern, shortest: float) -> Float
     return np.asarray(lines[np.hypot(*(lines[:, 1] - lines[:, 0]).T) >= shortest])
 
 
-def _usual(area: float, paper: float) -> int:
-    """Which of SPACINGS the lines of a face of this size have."""
-    wished = min(math.sqrt(area) / LINES_A_SIDE, paper / PAPER_SHARE)
+def _usual(areas: Sequence[float], paper: float) -> int:
+    """Which of SPACINGS the lines of a part have whose faces are as large as this in each section."""
+    wished = min(math.sqrt(max(areas)) / LINES_A_SIDE, math.sqrt(min(areas)) / LEAST_A_SIDE, paper / PAPER_SHARE)
     return max(sum(spacing <= wished for spacing in SPACINGS) - 1, 0)
 
 
@@ -122,6 +133,16 @@ def _box(loops: Sequence[Floats]) -> tuple[Floats, Floats]:
 def sides_of(loops: Sequence[Floats]) -> Floats:
     """(n, 2, 2) the sides of all loops."""
     return np.concatenate([np.stack([loop, np.roll(loop, -1, axis=0)], axis=1) for loop in loops])
+
+
+def _touching(parts: Mapping[str, Sequence[Floats]], order: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Parts of one section that touch, each with one before it in the order."""
+    boxes = np.array([_box(parts[name]) for name in order]).reshape(-1, 2, 2)
+    sides = [sides_of(parts[name]) for name in order]
+    for k, name in enumerate(order):
+        for other in _meeting(boxes, k):
+            if _touch(boxes[k], boxes[other], sides[k], sides[other]):
+                yield name, order[other]
 
 
 def _meeting(boxes: Floats, number: int) -> list[int]:

@@ -229,7 +229,7 @@ def draw_on_one_page(
     for number in range(MOST_DRAWINGS):
         paper = found.room.paper
         on_page = replace(alone, scale=found.scale, page=(paper.width, paper.height))
-        drawings = draw_views(source, views, on_page, progress)
+        drawings = draw_views(source, views, on_page, progress, one_sheet=True)
         sizes = _sizes(drawings, found, asked)
         better = asked.arranged(sizes, spacing, scale)
         if number + 1 == MOST_DRAWINGS or better.scale <= found.scale:

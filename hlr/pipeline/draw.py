@@ -21,11 +21,13 @@ def draw_views(
     options: Options | None = None,
     progress: Progress | None = None,
     noted: Noted | None = None,
+    one_sheet: bool = False,
 ) -> list[Drawing]:
     """One drawing per view, or per section of a view that several planes cut; the source is read and meshed once.
 
     source: whatever `hlr.source.open_source` takes. views: names or directions from the object toward the viewer.
     noted: called with the notes on the size of the views as soon as it is known, before the work begins.
+    one_sheet: they come on one, where a part has the same hatch in all sections (ISO 128).
     Raises SourceError, ViewError, OptionError; with options.strict StrictError for any warning.
     """
     options = checked(options or Options())
@@ -40,7 +42,7 @@ def draw_views(
 
             check_sections(options.section, views, options.whole)
             shown = shown_views(views, options.section, options.whole)
-            drawings = draw_sections(source, shown, options, progress, noted)
+            drawings = draw_sections(source, shown, options, progress, noted, one_sheet)
         else:
             drawings = _drawn_whole(Session(source, views, options, progress), views, options, noted)
     if options.strict:

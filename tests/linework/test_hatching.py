@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hlr.linework import hatching
-from hlr.linework.hatching import Pattern, hatched, patterns_of
+from hlr.linework.hatching import Pattern, hatched, patterns_on_sheet
 
 A4 = 210.0
 
@@ -12,6 +12,11 @@ A4 = 210.0
 def rectangle(x, y, width, height, hole=False):
     corners = np.array([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]]) + [x, y]
     return corners[::-1] if hole else corners
+
+
+def patterns_of(parts, paper):
+    """Of one section."""
+    return patterns_on_sheet([parts], paper)
 
 
 def lengths(lines):
@@ -133,3 +138,27 @@ def test_huge_drawings_have_a_bounded_number_of_lines():
 def test_the_order_of_the_parts_changes_nothing():
     parts = {"b": [rectangle(0, 0, 30, 30)], "a": [rectangle(30, 0, 30, 30)]}
     assert patterns_of(parts, A4) == patterns_of(dict(reversed(parts.items())), A4)
+
+
+def test_a_part_has_one_hatch_in_all_sections_of_a_sheet():
+    left, right = [rectangle(0, 0, 40, 40)], [rectangle(40, 0, 20, 20)]
+    one, other = {"a": left, "b": right}, {"a": right, "b": left}
+    assert patterns_of(one, A4) != patterns_of(other, A4)
+    found = patterns_on_sheet([one, other], A4)
+    assert found["a"] == Pattern(45.0, 3.0)
+    assert found["b"] == Pattern(135.0, 3.0)
+
+
+def test_parts_differ_that_touch_in_any_section():
+    parts = {name: [rectangle(50 * k, 0, 40, 40 - k)] for k, name in enumerate("abc")}
+    close = {"b": [rectangle(0, 0, 9, 9)], "c": [rectangle(9, 0, 8, 8)]}
+    assert len({pattern.angle for pattern in patterns_of(parts, A4).values()}) == 1
+    found = patterns_on_sheet([parts, close], A4)
+    assert found["a"].angle == found["b"].angle != found["c"].angle
+
+
+def test_the_smallest_section_has_a_few_lines():
+    large, small = {"a": [rectangle(0, 0, 90, 90)]}, {"a": [rectangle(0, 0, 4, 4)]}
+    found = patterns_on_sheet([large, small], A4)["a"]
+    assert found == Pattern(45.0, 1.0)
+    assert len(hatched(small["a"], found, 0.1)) >= 3

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import hlr
+from hlr.compare import compare
 from hlr.drawing.section_marks import BEYOND, FARTHER, LETTER, shapes_of
 from hlr.errors import OptionError
 
@@ -79,15 +80,19 @@ def test_letters_of_several_views_are_in_the_order_asked_for_as_well(section):
 
 
 def test_each_is_the_section_that_it_is_by_itself():
+    """The hatch is the same in both sections of the page; by itself each has its own, in the same places."""
     page = page_of(TWO)
     (scale,) = {view.scale for view in page.sheet.views}
     for name, place in (("left", -10), ("left-B", 15)):
         alone = hlr.draw(bracket(), "left", section=place, scale=scale, details=True)
         low = extent(page, name)[0]
-        ours = [x.points - low for x in page.lines if page.parts[x.part].name == f"{name}/part"]
-        theirs = [x.points - (alone.bounds.x0, alone.bounds.y0) for x in alone.lines]
+        edges = [x for x in page.lines if page.parts[x.part].name == f"{name}/part" and x.kind != "hatch"]
+        ours = [x.points - low for x in edges]
+        theirs = [x.points - (alone.bounds.x0, alone.bounds.y0) for x in alone.lines if x.kind != "hatch"]
         ends = [sorted(tuple(np.round(x[k], 2)) for k in (0, -1)) for x in ours]
         assert sorted(ends) == sorted(sorted(tuple(np.round(x[k], 2)) for k in (0, -1)) for x in theirs)
+        hatched = compare(page, alone)
+        assert not hatched.differences and [row.name for row in hatched.views if row.before and row.after] == [name]
 
 
 @pytest.mark.parametrize(

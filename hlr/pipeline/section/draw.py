@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
@@ -16,7 +16,8 @@ from hlr.drawing.drawing import Drawing
 from hlr.drawing.notes import OF_BORDERS, Note, Noted, of_each_view
 from hlr.errors import counted
 from hlr.image.paper import at_scale
-from hlr.pipeline.section.hatches import with_hatches
+from hlr.linework.hatching import Pattern
+from hlr.pipeline.section.hatches import CutDrawing, cut_drawing, patterns_of, with_hatches
 from hlr.pipeline.section.plane import Planes, planes_of
 from hlr.pipeline.section.sources import CutSource, cut_source
 from hlr.pipeline.session import Draft, Session
@@ -39,6 +40,16 @@ class _Cut:
 
     planes: Planes
     source: CutSource
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Section:
+    """A section that is drawn but for its hatches. number: of the view; seconds: that it took to find its faces."""
+
+    number: int
+    cut: _Cut
+    to_hatch: CutDrawing
     seconds: float
 
 
@@ -74,10 +85,12 @@ def draw_sections(
     options: Options,
     progress: Progress | None = None,
     noted: Noted | None = None,
+    one_sheet: bool = False,
 ) -> list[Drawing]:
     """One drawing per view, as `hlr.pipeline.draw.draw_views`, some of them cut.
 
-    options: checked. Raises as that, and OptionError where a plane cuts nothing or leaves nothing.
+    options: checked; one_sheet: as of that.
+    Raises as that, and OptionError where a plane cuts nothing or leaves nothing.
     """
     started = perf_counter()
     opened = open_selected(source, options)
@@ -93,18 +106,26 @@ def draw_sections(
                 early[k] = [*placement.notes, *failed]
         noted(of_each_view([view.name for view in views], early))
     found: dict[int, Drawing] = {}
+    sections: list[_Section] = []
     for group in groups:
         session, cut = group.session, group.cut
         for k, draft in zip(group.numbers, group.drafts(), strict=True):
             session.progress("visibility", len(found) / len(views))
             scale = draft.image.placement.scale
             asked = _of_one(at_scale(options, scale) if options.same_scale else options, views[k])
-            drawing = session.drawing(draft, Request(views[k].view, asked))
-            found[k] = drawing if cut is None else _finished(drawing, session, cut, opened, views[k].name)
+            found[k] = session.drawing(draft, Request(views[k].view, asked))
+            if cut is not None:
+                started = perf_counter()
+                to_hatch = cut_drawing(found[k], session, cut.planes, cut.source, opened)
+                sections.append(_Section(k, cut, to_hatch, perf_counter() - started))
+    for sheet in [sections] if one_sheet and sections else [[each] for each in sections]:
+        patterns = patterns_of([each.to_hatch for each in sheet])
+        found.update((each.number, _finished(each, patterns, views[each.number].name)) for each in sheet)
     drawings = [found[k] for k in range(len(views))]
     least = min(drawing.scale for drawing in drawings)
     if options.same_scale and any(drawing.scale > least for drawing in drawings):
-        return draw_sections(opened, views, replace(at_scale(options, least), same_scale=False), progress)
+        alike = replace(at_scale(options, least), same_scale=False)
+        return draw_sections(opened, views, alike, progress, one_sheet=one_sheet)
     if progress is not None:
         progress("linework", 1.0)
     return drawings
@@ -159,10 +180,11 @@ def _of_one(options: Options, shown: ShownView) -> Options:
     return replace(options, section=shown.place, whole=(), uncut=() if shown.place is None else options.uncut)
 
 
-def _finished(drawing: Drawing, session: Session, cut: _Cut, whole: Source, name: str) -> Drawing:
+def _finished(section: _Section, patterns: Mapping[str, Pattern], name: str) -> Drawing:
     """The drawing with its hatches, and what is to be said about them."""
-    started, clock = perf_counter(), dict(drawing.timings)
-    drawing = with_hatches(drawing, session, cut.planes, cut.source, whole)
+    cut, session = section.cut, section.to_hatch.session
+    started, clock = perf_counter() - section.seconds, dict(section.to_hatch.drawing.timings)
+    drawing = with_hatches(section.to_hatch, patterns)
     told = (_after_cut(note, name) for note in drawing.notes) if cut.source.cut else drawing.notes
     notes = *told, *_failed(name, cut), *_notes(drawing, session, cut, name)
     drawing = replace(drawing, notes=notes, view=replace(drawing.view, name=name))

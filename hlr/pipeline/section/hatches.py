@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,7 +13,7 @@ from hlr.drawing.line import Line
 from hlr.drawing.section import Section
 from hlr.linework.cut_faces import CutFace, cut_faces, level_faces
 from hlr.linework.hatch_strokes import uncovered
-from hlr.linework.hatching import Pattern, hatched, patterns_of, sides_of
+from hlr.linework.hatching import Pattern, hatched, patterns_on_sheet, sides_of
 from hlr.linework.joints import covered, is_covered, joint_borders
 from hlr.pipeline.section.jogs import without_jogs
 from hlr.pipeline.section.plane import Plane, Planes
@@ -29,7 +29,7 @@ from hlr.window.lines import cut_lines
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Hatched:
+class Hatched:
     """A face to be hatched.
 
     loops (k, 2): its border on paper; level: how far it lies toward the viewer, model units
@@ -47,22 +47,52 @@ class _Hatched:
         return self.cover is not None
 
 
-def with_hatches(drawing: Drawing, session: Session, planes: Planes, cut: CutSource, whole: Source) -> Drawing:
-    """A drawing of what planes leave, with its cut faces hatched. session: that has drawn it; whole: the source."""
+@dataclass(frozen=True, slots=True, eq=False)
+class CutDrawing:
+    """A drawing of what planes leave, which is to be hatched. session: that has drawn it; faces: to be hatched."""
+
+    drawing: Drawing
+    session: Session
+    planes: Planes
+    cut: CutSource
+    faces: Sequence[Hatched]
+
+    def loops(self) -> dict[str, list[Floats]]:
+        """The borders of all faces on paper, by the parts of the whole model."""
+        found: dict[str, list[Floats]] = {}
+        for each in self.faces:
+            found.setdefault(self.cut.whose[each.face.part], []).extend(each.loops)
+        return found
+
+
+def cut_drawing(drawing: Drawing, session: Session, planes: Planes, cut: CutSource, whole: Source) -> CutDrawing:
+    """A drawing with what is to be hatched in it. whole: the source before it was cut."""
+    faces = _hatched_faces(session, planes, cut, _Paper(drawing), whole)
+    return CutDrawing(drawing, session, planes, cut, faces)
+
+
+def patterns_of(sections: Sequence[CutDrawing]) -> dict[str, Pattern]:
+    """The patterns of the parts of the whole model, by name, on a sheet with these sections."""
+    shorter = min(_shorter_side(each.drawing) for each in sections)
+    return patterns_on_sheet([each.loops() for each in sections], shorter)
+
+
+def with_hatches(section: CutDrawing, patterns: Mapping[str, Pattern]) -> Drawing:
+    """The drawing with its cut faces hatched. patterns: as of `patterns_of`."""
+    drawing, planes, cut, faces = section.drawing, section.planes, section.cut, section.faces
     paper = _Paper(drawing)
-    faces = _hatched_faces(session, planes, cut, paper, whole)
-    hatches, rims = _lines(drawing, faces, cut, paper, _before(session, planes, cut, paper))
+    hatches, rims = _lines(section, patterns, paper, _before(section.session, planes, cut, paper))
     parts = _parts_of(drawing, faces, hatches)
     if planes.steps:
         drawing = without_jogs(drawing, planes, [(cut.whose[each.face.part], each.loops) for each in faces], cut.whose)
     if drawing.window is not None:
         frame = Frame(drawing.view, drawing.scale * drawing.unit, drawing.window)
         hatches, rims = list(cut_lines(hatches, frame)[0]), list(cut_lines(rims, frame)[0])
-    section = Section(planes.first.point, planes.normal, parts, planes.corners())
-    return replace(_with_lines(drawing, rims, hatches), section=section)
+    shown = Section(planes.first.point, planes.normal, parts, planes.corners())
+    return replace(_with_lines(drawing, rims, hatches), section=shown)
 
 
-def _parts_of(drawing: Drawing, faces: Sequence[_Hatched], hatches: Sequence[Line]) -> tuple[int, ...]:
+def _parts_of(drawing: Drawing, faces: Sequence[Hatched], hatches: Sequence[Line]) -> tuple[int, ...]:
     """The numbers of the parts that a section shows cut: those with cut faces, and those with a joint that is seen."""
     number = _part_numbers(drawing)
     cut = {number[each.face.part] for each in faces if not each.is_joint}
@@ -80,7 +110,7 @@ def _with_lines(drawing: Drawing, rims: list[Line], hatches: list[Line]) -> Draw
     return replace(drawing, lines=lines, counters=counters)
 
 
-def _hatched_faces(session: Session, planes: Planes, cut: CutSource, paper: _Paper, whole: Source) -> list[_Hatched]:
+def _hatched_faces(session: Session, planes: Planes, cut: CutSource, paper: _Paper, whole: Source) -> list[Hatched]:
     """All faces to be hatched: first those that the planes have cut, then joints."""
     beside = list(_beside(session.parts, planes))
     cut_ones = [face for plane, own in beside for face in _cut_faces(own, plane, cut, paper)]
@@ -89,19 +119,19 @@ def _hatched_faces(session: Session, planes: Planes, cut: CutSource, paper: _Pap
 
 
 def _lines(
-    drawing: Drawing, faces: Sequence[_Hatched], cut: CutSource, paper: _Paper, before: Floats | None
+    section: CutDrawing, patterns: Mapping[str, Pattern], paper: _Paper, before: Floats | None
 ) -> tuple[list[Line], list[Line]]:
     """The strokes of all hatches, and the borders of hatches at which no edge is.
 
     before (k, 2, 2): borders, on paper, of what lies before the planes
     """
-    shortest, number, patterns = drawing.accuracy.used, _part_numbers(drawing), _patterns(drawing, faces, cut)
-    over_joints = _over_joints(faces, before)
+    shortest, number = section.drawing.accuracy.used, _part_numbers(section.drawing)
+    over_joints = _over_joints(section.faces, before)
     hatches: list[Line] = []
     rims: list[Line] = []
-    for each in faces:
+    for each in section.faces:
         part, hiding = number[each.face.part], over_joints if each.is_joint else before
-        for stroke in _strokes(each, patterns[cut.whose[each.face.part]], hiding, shortest):
+        for stroke in _strokes(each, patterns[section.cut.whose[each.face.part]], hiding, shortest):
             hatches.append(Line("hatch", True, part, None, each.face.number, stroke, paper.behind(stroke, each.level)))
         for border in _borders(each, paper, shortest):
             rims += _rim(border, part, paper, hiding, each.level)
@@ -113,22 +143,14 @@ def _part_numbers(drawing: Drawing) -> dict[str, int]:
     return {part.name: k for k, part in enumerate(drawing.parts)}
 
 
-def _patterns(drawing: Drawing, faces: Sequence[_Hatched], cut: CutSource) -> dict[str, Pattern]:
-    """The pattern of each part of the whole model that has hatched faces, by its name."""
-    by_part: dict[str, list[Floats]] = {}
-    for each in faces:
-        by_part.setdefault(cut.whose[each.face.part], []).extend(each.loops)
-    return patterns_of(by_part, _shorter_side(drawing))
-
-
-def _over_joints(faces: Sequence[_Hatched], before: Floats | None) -> Floats | None:
+def _over_joints(faces: Sequence[Hatched], before: Floats | None) -> Floats | None:
     """(k, 2, 2) the borders, on paper, of what hides joints: where parts overlap, a face that is cut does, too."""
     over = [sides_of(each.loops) for each in faces if not each.is_joint]
     over = over if before is None else [*over, before]
     return np.concatenate(over) if over else None
 
 
-def _strokes(face: _Hatched, pattern: Pattern, hiding: Floats | None, shortest: float) -> Floats:
+def _strokes(face: Hatched, pattern: Pattern, hiding: Floats | None, shortest: float) -> Floats:
     """(k, 2, 2) the strokes of a face on paper, as far as they are seen.
 
     hiding (k, 2, 2): borders of what hides it; None: nothing does; shortest: millimetres, of a stroke
@@ -143,7 +165,7 @@ def _strokes(face: _Hatched, pattern: Pattern, hiding: Floats | None, shortest: 
     return strokes
 
 
-def _borders(face: _Hatched, paper: _Paper, shortest: float) -> list[Floats]:
+def _borders(face: Hatched, paper: _Paper, shortest: float) -> list[Floats]:
     """Borders (n, 2) of a hatch, on paper, at which no edge is. shortest: millimetres, of a border of a joint."""
     if face.cover is not None:
         return joint_borders(face.loops, face.cover, shortest)
@@ -172,13 +194,13 @@ def _between(part: PartMesh, along: Floats, low: float, high: float) -> PartMesh
     return replace(part, triangles=part.triangles[chosen], triangle_face=part.triangle_face[chosen])
 
 
-def _cut_faces(parts: Sequence[PartMesh], plane: Plane, cut: CutSource, paper: _Paper) -> list[_Hatched]:
+def _cut_faces(parts: Sequence[PartMesh], plane: Plane, cut: CutSource, paper: _Paper) -> list[Hatched]:
     """The faces that a plane has cut."""
     point, normal = np.array(plane.point), np.array(plane.normal)
     bodies = [part for part in parts if part.name not in cut.open]
     faces = cut_faces(bodies, point, normal, plane.near, lambda name: plane.level.get(cut.whose[name]))
     return [
-        _Hatched(face, [paper.on(border) for border in face.borders], plane.height)
+        Hatched(face, [paper.on(border) for border in face.borders], plane.height)
         for face in faces
         if cut.whose[face.part] in cut.cut
     ]
@@ -186,7 +208,7 @@ def _cut_faces(parts: Sequence[PartMesh], plane: Plane, cut: CutSource, paper: _
 
 def _joints(
     session: Session, parts: Sequence[PartMesh], plane: Plane, cut: CutSource, paper: _Paper, whole: Source
-) -> list[_Hatched]:
+) -> list[Hatched]:
     """The faces that lay in a plane before and on which other parts rest, under those."""
     ahead = plane.ahead - cut.uncut
     if not ahead or not any(plane.level.keys() - cut.uncut):
@@ -205,7 +227,7 @@ def _joints(
         cover = [loop for name, loops in resting.items() if name != own for loop in loops]
         loops = [paper.on(border) for border in face.borders]
         if own not in cut.uncut and cover and is_covered(loops, sides_of(cover)):
-            found.append(_Hatched(face, loops, plane.height, cover))
+            found.append(Hatched(face, loops, plane.height, cover))
     return found
 
 
