@@ -1050,6 +1050,17 @@ class PartTables:
         ValueError: a length or a number is out of range.
         """
 
+    def repeats(self, near: float) -> tuple[Ints, Ints, Floats]:
+        """The parts (m,) that have the mesh of an earlier one with no point farther away than `near`, ascending; that
+        one (m,), which repeats no other; and the greatest distance of their points (m,).
+        """
+
+    def without_meshes(self, chosen: Bools) -> PartTables:
+        """These parts without the triangles and edges of the chosen (p,) ones; their points and faces are kept.
+
+        ValueError: a length is out of range.
+        """
+
     def within(self, largest: float) -> bool:
         """Whether all coordinates are finite and nearer to the origin than this."""
 

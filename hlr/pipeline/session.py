@@ -68,7 +68,8 @@ class Session:
     """A source before its cameras.
 
     source, bounds (2, 3); cameras and placements, one per view; clock: seconds by stage. The scene, the curves of its
-    edges and the looks of its parts are there once `drafts` was called; of a section, so are the meshes of its parts.
+    edges and the looks of its parts are there once `drafts` was called; of a section, so are the meshes of its parts,
+    but of those that repeat another one.
     """
 
     scene: Scene
@@ -115,7 +116,7 @@ class Session:
         meshed = self.source.mesh(coarser * deflection, angle, self.progress)
         started = lap(self.clock, "tessellate", started)
         self.progress("scene", 0.0)
-        scene = build(meshed, self.options.crease, deflection, planner, self._on_cut)
+        scene = build(meshed, self.options.crease, deflection, planner, self._on_cut, self.source.appearances)
         lap(self.clock, "scene", started)
         return scene, meshed
 
@@ -150,7 +151,10 @@ class Session:
         for draft in drafts:
             note_rescue(draft.planner, self.scene, meshed)
         self.edge_curves = meshed.edge_curves
-        self.parts = meshed.parts if self.options.section is not None else ()
+        self.parts = ()
+        if self.options.section is not None:
+            repeated = self.scene.parts.repeated
+            self.parts = [part for i, part in enumerate(meshed.parts) if i not in repeated]
         self.looks = self.source.appearances() if self.source.transparent() else {}
         self.remarks = [] if self.options.see_through else hiding(self.scene, self.looks)
         # Images belong to all views, as the scene does. The rest counts in its own stages.

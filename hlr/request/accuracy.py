@@ -14,7 +14,8 @@ Each source of error gets a share of the accuracy. The shares of an emitted line
 
 The tessellation takes 0.5, or 0.625 where the scale turns out larger than was foreseen (`REMESH`). Along its line a
 change of visibility is off by that over the sine of the angle at which the covering edge crosses, which comes on top.
-A stitched border of a mesh is one of the two borders that the file gives, 0.2 apart at most (`STITCH`). Faces that
+A stitched border of a mesh is one of the two borders that the file gives, 0.2 apart at most (`STITCH`), and of parts
+that repeat one another, 0.125 apart at most (`REPEATED`), the first is drawn. Faces that
 OpenCASCADE had to mesh may be off by more; the drawing names them in a note.
 
 The kernel's grid adds nothing: a drawing is at least 2^30 of its steps wide; a step is a quarter of the finest accuracy
@@ -95,6 +96,10 @@ CONTACT_PLANAR = 2.5
 """Of the deflection: the contact depth of planar parts. Files round little, but parts are placed on one another with
 gaps and overlaps that are nothing on paper. Ten times the kernel's `FLUSH`, the depth a wall may sink into a face
 without a line of its own: so its edge is seen there from all but the most oblique directions."""
+
+REPEATED = 0.25
+"""Of the deflection: parts with equal meshes count as one where no point is farther from its copy than this, an eighth
+of the accuracy. Planar faces no deeper in one another than that count as touching (the kernel's `FLUSH`)."""
 
 CONTACT_SPARE = 1.01
 """Of the contact depth: boxes of parts are grown by this much to find the parts that come near one another."""

@@ -10,6 +10,7 @@ import numpy as np
 from hlr._kernel import Groups, MeshFacts, MeshScene
 from hlr.common.types import Floats
 from hlr.errors import SourceError
+from hlr.request.accuracy import REPEATED
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
@@ -18,6 +19,7 @@ from hlr.scene.creases import creases
 from hlr.scene.duplicates import without_duplicates
 from hlr.scene.intersection_lines import intersection_lines
 from hlr.scene.needles import reliable_normals
+from hlr.scene.repeats import Looks, without_repeats
 from hlr.scene.scene import Scene, TrueSurfaces
 from hlr.scene.scene_parts import OnCut, scene_parts
 from hlr.scene.spindle_tori import self_intersecting_tori
@@ -36,13 +38,16 @@ def build(
     deflection: float,
     planner: Planner | None = None,
     on_cut: OnCut | None = None,
+    looks: Looks = dict,
 ) -> Scene:
     """The scene of all parts. crease: degrees, for parts without B-rep; deflection: what they were meshed with.
 
-    planner: decides what is looked for at all; on_cut: of a section. Raises SourceError where nothing is left to draw.
+    planner: decides what is looked for at all; on_cut: of a section; looks: of the parts. Raises SourceError where
+    nothing is left to draw.
     """
     plan = planner or Planner(drawing_effects(), Options())
-    whole, mesh, doubled = _repaired(combine_parts(meshed.parts), plan)
+    repeats, whole = without_repeats(combine_parts(meshed.parts), REPEATED * deflection, looks)
+    whole, mesh, doubled = _repaired(whole, plan)
     whole, mesh = _stitched(whole, mesh, deflection, plan)
     found, tables = mesh.scene(), whole.tables
     points, triangles, brep = tables.points, found.triangles, tables.brep
@@ -70,7 +75,9 @@ def build(
     plan.spent("intersection search", perf_counter() - begin, clash_tests=0 if met is None else met.tests)
     true, intersections = _true_surfaces(whole, found), None
     crossed = set() if met is None else self_intersecting_parts(met, group_part)
-    parts = scene_parts(whole, doubled, found, mesh.offsets, drawn, crossed, meshed.surface_parts, on_cut)
+    parts = scene_parts(whole, doubled, found, mesh.offsets, drawn, crossed, meshed.surface_parts, on_cut).with_repeats(
+        repeats.of
+    )
     groups = groups.unsound(found.welded if met is None else met.through | found.welded)
 
     if len(found.loose):
@@ -115,7 +122,7 @@ def build(
         walks=walks,
         has_faces=brep & (tables.face_start[1:] > tables.face_start[:-1]),
         parts=parts,
-        notes=(*meshed.notes, *parts.notes()),
+        notes=(*meshed.notes, *parts.notes(), *repeats.notes(whole.labels)),
         true_surfaces=true,
         convex=len(group_part) == 1 and not found.folded,
         facets=facets,

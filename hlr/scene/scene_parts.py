@@ -49,7 +49,8 @@ class ScenePart:
 class SceneParts:
     """The parts of a scene; the record of one is made when it is asked for.
 
-    labels  name, colour and placement of each part
+    labels    name, colour and placement of each part
+    repeated  parts without meshes, each with the one that it repeats
     """
 
     def __init__(
@@ -58,12 +59,19 @@ class SceneParts:
         reports: PartReports,
         drawn: list[int] | None,
         defects: Mapping[int, tuple[tuple[str, ...], int]],
+        repeated: Mapping[int, int] | None = None,
     ) -> None:
         """reports: what the kernel counted; drawn: edges of parts without B-rep, None where there are none;
-        defects: by the number of the part, with its open edges.
+        defects: by the number of the part, with its open edges; repeated: as in `with_repeats`.
         """
-        self.labels = labels
+        self.labels, self.repeated = labels, repeated or {}
         self._reports, self._drawn, self._defects = reports, drawn, defects
+
+    def with_repeats(self, repeated: Mapping[int, int]) -> SceneParts:
+        """The same, where the meshes of these parts were left out: each is like the part that it repeats."""
+        defects = {i: self._defects[first] for i, first in repeated.items() if first in self._defects}
+        every = dict(sorted({**self._defects, **defects}.items()))
+        return SceneParts(self.labels, self._reports, self._drawn, every, repeated)
 
     def __len__(self) -> int:
         return len(self.labels)
@@ -73,8 +81,9 @@ class SceneParts:
 
     def __getitem__(self, i: int) -> ScenePart:
         label = self.labels[i]
-        brep, faces, (border, _, turned, _, unclosed, _, triangles, edges) = self._reports.of(i)
-        own = 0 if self._drawn is None else self._drawn[i]
+        counted = self.repeated.get(i, i)
+        brep, faces, (border, _, turned, _, unclosed, _, triangles, edges) = self._reports.of(counted)
+        own = 0 if self._drawn is None else self._drawn[counted]
         defects, open_edges = self._defects.get(i, ((), 0))
         return ScenePart(
             name=label.name,

@@ -15,6 +15,7 @@ pub mod measure;
 pub mod meshfile;
 pub mod needles;
 pub mod ray_count;
+pub mod repeats;
 pub mod scene;
 pub mod sizes;
 pub mod stitch;

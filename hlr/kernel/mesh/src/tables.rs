@@ -297,10 +297,10 @@ pub fn per_item(start: &[i32]) -> Vec<i32> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    fn one() -> Tables {
+    pub fn one() -> Tables {
         Tables::of_roots(vec![root()], &[true; 4]).unwrap()
     }
 

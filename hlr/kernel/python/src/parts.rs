@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use numpy::{PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use numpy::{IntoPyArray, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -14,11 +14,15 @@ use super::threads::{AT_ONCE, CHEAP, release_later, run};
 use super::view::{Flat, Rows, arrays, flat, matrices, rows};
 use hlr_brep::format::Matrix;
 use hlr_mesh::facts::Facts;
+use hlr_mesh::repeats::Repeat;
 use hlr_mesh::tables::{Placed, Tables, TooMany};
 
 fn too_many(_: TooMany) -> PyErr {
     PyValueError::new_err("more than 2^31 items in one mesh")
 }
+
+/// Parts (m,), the parts that they repeat (m,), and how far they are apart (m,).
+type Repeats<'py> = (Flat<'py, i32>, Flat<'py, i32>, Flat<'py, f64>);
 
 /// The meshes of all parts, one after another.
 #[pyclass(frozen)]
@@ -193,6 +197,22 @@ arrays! { PartTables {
         expect_len("edge_nodes", nodes.len(), self.0.edge_nodes.len())?;
         expect_below("edge_nodes", nodes.iter().copied(), self.0.points.len())?;
         Ok(PartTables(Arc::new(py.detach(|| self.0.with_triangles(chosen, nodes)))))
+    }
+
+    /// The parts that repeat an earlier one, with no point farther away than `near`; which they repeat, and how far they
+    /// are apart.
+    fn repeats<'py>(&self, py: Python<'py>, near: f64) -> PyResult<Repeats<'py>> {
+        let found = run(py, self.0.points.len() / CHEAP, |_| self.0.repeats(near))?;
+        let column = |of: fn(&Repeat) -> i32| found.iter().map(of).collect::<Vec<i32>>().into_pyarray(py);
+        let apart: Vec<f64> = found.iter().map(|repeat| repeat.apart).collect();
+        Ok((column(|repeat| repeat.part), column(|repeat| repeat.of), apart.into_pyarray(py)))
+    }
+
+    /// These parts without the triangles and edges of the chosen ones.
+    fn without_meshes(&self, py: Python<'_>, chosen: PyReadonlyArray1<'_, bool>) -> PyResult<PartTables> {
+        let chosen = slice(&chosen, "chosen")?;
+        expect_len("chosen", chosen.len(), self.0.len())?;
+        Ok(PartTables(Arc::new(py.detach(|| self.0.without_meshes(chosen)))))
     }
 
     /// How many parts have a B-rep.

@@ -1,0 +1,200 @@
+//! Parts that repeat another one in the same place, as patterns gone wrong leave them: n equal bodies in one place.
+//!
+//! All of them together show what one of them shows, but every surface would be tried with every other: n of them would
+//! take n times n as long as one.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::tables::Tables;
+
+/// A part that repeats an earlier one, and the greatest distance between a point of the one and that of the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Repeat {
+    pub part: i32,
+    pub of: i32,
+    pub apart: f64,
+}
+
+/// Where parts are looked for: those with as many points, triangles and edges, by the place of their first point.
+type Key = ([usize; 3], [i64; 3]);
+
+impl Tables {
+    /// The parts that have the mesh of an earlier one, with no point farther away than `near`, ascending.
+    ///
+    /// The earlier one repeats no other: distances do not add up along a row of parts.
+    pub fn repeats(&self, near: f64) -> Vec<Repeat> {
+        let mut firsts: HashMap<Key, Vec<usize>> = HashMap::new();
+        let mut out = Vec::new();
+        for part in 0..self.len() {
+            let [points, triangles, edges] = self.rows(part);
+            if triangles.is_empty() {
+                continue;
+            }
+            let counts = [points.len(), triangles.len(), edges.len()];
+            // Of cells twice as wide as `near`, a point less far away lies in this one, or beside it on the nearer side.
+            let at = self.points[points.start].map(|c| c / (2.0 * near));
+            let cell = at.map(|c| c.floor() as i64);
+            let side = at.map(|c| if c - c.floor() < 0.5 { -1 } else { 1 });
+            let step = |corner: usize, k: usize| if corner >> k & 1 == 1 { side[k] } else { 0 };
+            let beside = (0..8).map(|corner| [0, 1, 2].map(|k| cell[k].saturating_add(step(corner, k))));
+            let earlier = beside.filter_map(|cell| firsts.get(&(counts, cell))).flatten();
+            let repeated = |&first: &usize| self.apart([first, part], near).map(|apart| (first, apart));
+            match earlier.filter_map(repeated).min_by_key(|&(first, _)| first) {
+                Some((first, apart)) => out.push(Repeat { part: part as i32, of: first as i32, apart }),
+                None => firsts.entry((counts, cell)).or_default().push(part),
+            }
+        }
+        out
+    }
+
+    /// These tables without the triangles and edges of the chosen parts. Their points and faces are kept.
+    pub fn without_meshes(&self, chosen: &[bool]) -> Tables {
+        let mut staying = vec![true; self.triangles.len()];
+        let (mut edges, mut nodes) = (vec![true; self.edge_index.len()], Vec::new());
+        for (part, &chosen) in chosen.iter().enumerate() {
+            let [_, triangles, own] = self.rows(part);
+            if chosen {
+                staying[triangles].fill(false);
+                edges[own].fill(false);
+            } else {
+                nodes.extend(&self.edge_nodes[self.nodes(own)]);
+            }
+        }
+        let mut out = self.with_triangles(&staying, &nodes);
+        let mut kept = edges.iter();
+        out.edge_index.retain(|_| kept.next() == Some(&true));
+        let mut kept = edges.iter();
+        out.edge_class.retain(|_| kept.next() == Some(&true));
+        out.edge_offsets = vec![0];
+        let mut end = 0;
+        for (length, _) in self.edge_offsets.windows(2).map(|w| w[1] - w[0]).zip(&edges).filter(|&(_, &kept)| kept) {
+            end += length;
+            out.edge_offsets.push(end);
+        }
+        for (part, &chosen) in chosen.iter().enumerate() {
+            let own = if chosen { 0 } else { self.rows(part)[2].len() as i32 };
+            out.edge_start[part + 1] = out.edge_start[part] + own;
+        }
+        out
+    }
+
+    /// The points, triangles and edges of a part.
+    fn rows(&self, part: usize) -> [Range<usize>; 3] {
+        [&self.point_start, &self.triangle_start, &self.edge_start].map(|start| range(start, part))
+    }
+
+    /// Where the nodes of these edges lie.
+    fn nodes(&self, edges: Range<usize>) -> Range<usize> {
+        self.edge_offsets[edges.start] as usize..self.edge_offsets[edges.end] as usize
+    }
+
+    /// How far apart two parts with as many points, triangles and edges are; None where they differ, or by more than
+    /// `near`.
+    fn apart(&self, parts: [usize; 2], near: f64) -> Option<f64> {
+        let [[p, t, e], [q, u, f]] = parts.map(|part| self.rows(part));
+        let mut apart = 0.0f64;
+        for (a, b) in self.points[p.clone()].iter().zip(&self.points[q.clone()]) {
+            let squared: f64 = (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum();
+            apart = apart.max(squared.sqrt());
+            if apart > near {
+                return None;
+            }
+        }
+        let [a, b] = parts;
+        let point = self.point_start[b] - self.point_start[a];
+        let node = self.node_start[b] - self.node_start[a];
+        let [c, d] = parts.map(|part| range(&self.face_start, part));
+        let [i, j] = parts.map(|part| range(&self.node_start, part));
+        let [m, n] = [self.nodes(e.clone()), self.nodes(f.clone())];
+        let corner = |&corner: &[i32; 3]| corner.map(|i| if i < 0 { i } else { i + node });
+        let same = self.brep[a] == self.brep[b]
+            && self.joined[a] == self.joined[b]
+            && self.precision[a] == self.precision[b]
+            && self.face_planar[c.clone()] == self.face_planar[d.clone()]
+            && self.face_reversed[c] == self.face_reversed[d]
+            && self.edge_index[e.clone()] == self.edge_index[f.clone()]
+            && self.edge_class[e.clone()] == self.edge_class[f.clone()]
+            && self.triangle_face[t.clone()] == self.triangle_face[u.clone()]
+            && self.origin[t.clone()] == self.origin[u.clone()]
+            && self.uv[i] == self.uv[j]
+            && self.triangles[t.clone()]
+                .iter()
+                .map(|t| t.map(|v| v + point))
+                .eq(self.triangles[u.clone()].iter().copied())
+            && (self.corner.is_empty() || self.corner[t].iter().map(corner).eq(self.corner[u].iter().copied()))
+            && lengths(&self.edge_offsets[e.start..=e.end]).eq(lengths(&self.edge_offsets[f.start..=f.end]))
+            && self.edge_nodes[m].iter().map(|v| v + point).eq(self.edge_nodes[n].iter().copied());
+        same.then_some(apart)
+    }
+}
+
+fn range(start: &[i32], part: usize) -> Range<usize> {
+    start[part] as usize..start[part + 1] as usize
+}
+
+fn lengths(offsets: &[i32]) -> impl Iterator<Item = i32> {
+    offsets.windows(2).map(|w| w[1] - w[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tables::Placed;
+    use super::super::tables::tests::one;
+    use super::*;
+    use hlr_brep::format::IDENTITY;
+
+    /// The body of tables of one part at these distances along x.
+    fn row(of: &Tables, at: &[f64]) -> Tables {
+        let place = |&x: &f64| [[1.0, 0.0, 0.0, x], IDENTITY[1], IDENTITY[2]];
+        let placed: Vec<Placed> = at.iter().map(|x| Placed { part: 0, transform: place(x), precision: 0.0 }).collect();
+        of.placed(&placed).unwrap()
+    }
+
+    #[test]
+    fn parts_in_one_place_repeat_the_first() {
+        let found = row(&one(), &[0.0, 5.0, 0.0, 5.0, 0.0]).repeats(1e-3);
+        let repeat = |part, of| Repeat { part, of, apart: 0.0 };
+        assert_eq!(found, [repeat(2, 0), repeat(3, 1), repeat(4, 0)]);
+    }
+
+    #[test]
+    fn small_distances_do_not_add_up() {
+        let found = row(&one(), &[0.0, 0.9, 1.8, 2.7, -0.9]).repeats(1.0);
+        let of: Vec<[i32; 2]> = found.iter().map(|repeat| [repeat.part, repeat.of]).collect();
+        assert_eq!(of, [[1, 0], [3, 2], [4, 0]]);
+        assert!(found.iter().all(|repeat| (repeat.apart - 0.9).abs() < 1e-12));
+    }
+
+    #[test]
+    fn whatever_differs_is_no_repeat() {
+        let two = || row(&one(), &[0.0, 0.0]);
+        let changes: [fn(&mut Tables); 8] = [
+            |t| t.points[6][1] += 0.1,
+            |t| t.triangles[5].swap(1, 2),
+            |t| t.triangle_face[5] = 0,
+            |t| t.face_planar[5] = false,
+            |t| t.face_reversed[5] = true,
+            |t| t.edge_nodes[5] = 6,
+            |t| t.edge_class[3] = 1,
+            |t| t.uv[13] = [1.0; 2],
+        ];
+        assert_eq!(two().repeats(0.05).len(), 1);
+        for (k, change) in changes.iter().enumerate() {
+            let mut tables = two();
+            change(&mut tables);
+            assert_eq!(tables.repeats(0.05), [], "{k}");
+        }
+    }
+
+    #[test]
+    fn the_others_stay_as_they_are() {
+        let three = row(&one(), &[0.0, 3.0, 6.0]);
+        let found = three.without_meshes(&[false, true, false]);
+        assert_eq!((found.triangle_start, found.edge_start), (vec![0, 4, 4, 8], vec![0, 2, 2, 4]));
+        assert_eq!(found.triangles[4..], three.triangles[8..]);
+        assert_eq!((found.edge_offsets, found.edge_nodes), (vec![0, 2, 4, 6, 8], vec![0, 1, 1, 2, 8, 9, 9, 10]));
+        assert_eq!((found.edge_index, found.corner[4]), (vec![0, 1, 0, 1], three.corner[8]));
+        assert_eq!((found.points, found.face_start), (three.points, three.face_start));
+    }
+}
