@@ -13,9 +13,11 @@ pub struct Near<'a> {
     pub uv: [f64; 2],
 }
 
-/// Sine of the angle between two surfaces below which their common line is not told, and volume between three unit
-/// normals below which two of them count as one, as of faces that join smoothly.
-pub const NEARLY_TANGENT: f64 = 0.02;
+/// Sine of the angle between two surfaces below which their common line is not told. A dome that stands an accuracy out
+/// of a plate meets it at more, up to a radius of four metres on paper.
+pub const NEARLY_TANGENT: f64 = 0.005;
+/// Volume between three unit normals below which two of them count as one, as of faces that join smoothly.
+const SMOOTHLY_JOINED: f64 = 0.02;
 const STEPS: usize = 20;
 /// Two points this near, as a share of their distance from the origin, are one.
 const ROUNDING: f64 = 1e-13;
@@ -68,7 +70,7 @@ fn search(near: &mut [Near], start: &Vector, deflection: f64, planes: Planes) ->
 fn step(feet: &[Foot], p: &Vector, planes: Planes) -> Option<(Vector, f64)> {
     let height = |i: usize| dot(&feet[i].normal, &sub(&feet[i].point, p));
     let pairs = (0..feet.len()).flat_map(|i| (i + 1..feet.len()).map(move |j| [i, j]));
-    let mut three = (NEARLY_TANGENT, None);
+    let mut three = (SMOOTHLY_JOINED, None);
     let mut two = (NEARLY_TANGENT, None);
     for [i, j] in pairs {
         let upright = cross(&feet[i].normal, &feet[j].normal);
