@@ -532,7 +532,8 @@ class Walks:
     index (w,): the edge in its part's TopExp edge map; other (w,): of an intersection line the second part; face (w,):
     of an outline the face in its part's TopExp face map; curve (w,): of an intersection line its curve in
     `hlr.scene.scene.IntersectionCurves`. straight (w,): two planar faces meet there at an angle, and two planes have a
-    straight line in common. ValueError where they do not fit.
+    straight line in common. shallow (w,): along an intersection line one surface is nowhere deep in the other.
+    ValueError where they do not fit.
     """
 
     def __new__(
@@ -548,6 +549,7 @@ class Walks:
         face: Ints | None = None,
         straight: Bools | None = None,
         curve: Ints | None = None,
+        shallow: Bools | None = None,
     ) -> Walks: ...
     def __len__(self) -> int: ...
 
@@ -561,6 +563,7 @@ class Walks:
     face: Ints
     straight: Bools
     curve: Ints
+    shallow: Bools
 
     def merged(self, other: Walks) -> Walks:
         """These walks and those of another, sorted by part; within a part these come first."""
@@ -1133,7 +1136,7 @@ class MeshScene:
 
     def crossings(
         self, groups: Groups, contact: tuple[float, float, float], deflection: float
-    ) -> tuple[Floats, Ints, Ints, Ints, Bools, int]:
+    ) -> tuple[Floats, Ints, Ints, Ints, Bools, Bools, int]:
         """As in `hlr.scene.clash.Clashes`. contact: as in `Plan`; deflection: what the parts were meshed with."""
 
 class PartReports:

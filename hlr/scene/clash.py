@@ -2,7 +2,8 @@
 
 Triangles of surfaces that only touch cross here and there, because tessellation and files round. The depth decides: a
 connected set of segments is an intersection where at least one of its triangles reaches beyond the other's plane, on
-both sides, by more than the contact tolerance. Planar faces have no chord error: next to nothing is forgiven there.
+both sides, by more than the accuracy: two fifths of the contact tolerance. Facets of meshes at small angles have to
+reach farther, by all of it. Planar faces have no chord error: next to nothing is forgiven there.
 
 ::
 
@@ -32,6 +33,7 @@ class Clashes:
     edges    (m, 2) into points
     group    (m, 2) the two groups of each edge, the lower first
     triangle (m, 2) a triangle of each of these groups that the edge lies on
+    shallow  (m,) bool: along the whole line of the edge one surface is nowhere deep in the other
     through  (g,) bool: the group intersects itself
     """
 
@@ -39,6 +41,7 @@ class Clashes:
     edges: Ints
     group: Ints
     triangle: Ints
+    shallow: npt.NDArray[np.bool_]
     through: npt.NDArray[np.bool_]
     tests: int
     """Pairs of triangles that were tested."""

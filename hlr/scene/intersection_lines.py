@@ -66,5 +66,7 @@ def intersection_lines(
         np.ascontiguousarray(parts[:, 0]),
         other=np.ascontiguousarray(parts[:, 1]),
         curve=curve,
+        # Edges that are chained belong to one line.
+        shallow=np.ascontiguousarray(met.shallow[head]),
     )
     return walks, curves

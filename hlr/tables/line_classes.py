@@ -46,8 +46,9 @@ class LineClass:
     number           as meshes, the scene and the kernel carry it; numbers run from 0 without a gap
     name             what drawings and files call it
     title            of its lines, for people
-    rank             of lines that coincide in the image the one of the lower sixteen (rank // 16) is drawn, of those
-                     the nearer, at one depth the one of the lower rank; at most 254
+    rank             of lines that coincide in the image the one of the lower eight (rank // 8) is drawn, of those the
+                     nearer, at one depth the one of the lower rank; at most 246. Intersection lines along which one
+                     surface is nowhere deep in the other have 8 more
     place            lines are drawn in rising order of it, so that the wide ones lie on top
     border           a face ends there, at another or at nothing
     tangent          the surface goes on there without a fold, so that its image may turn over

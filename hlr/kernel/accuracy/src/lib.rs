@@ -44,7 +44,8 @@ pub const EDGE_IN_FACE: f64 = 0.1;
 /// line there but its own edge. In view depth that takes more, the more obliquely one looks: `CONTACT_PLANAR` is ten times as much.
 pub const FLUSH: f64 = 0.25;
 /// Of the contact depth: that at right angles to a surface. Two tessellations are off by one deflection each, which is this
-/// much; the rest is for surfaces seen obliquely.
+/// much, and one accuracy; the rest is for surfaces seen obliquely. What goes deeper is an intersection, with a line: for
+/// its own edges are hidden where they are seen at a slant.
 pub const CONTACT_AT_RIGHT_ANGLES: f64 = 0.4;
 /// Of the contact depth: what one face of a solid may dip into another face of the same solid. On sound solids facets
 /// cross by a fifth of a deflection at most.
@@ -60,6 +61,10 @@ pub const CONTACT_POINT: f64 = 1e-3;
 /// Of the deflection, over the sine of the angle between two surfaces: how far the line of their meshes may be from the
 /// true one. Each mesh is off by one deflection.
 pub const INTERSECTION_MOVE: f64 = 4.0;
+/// Of the deflection, of which an accuracy has two: a line along which one surface is nowhere deeper in the other is
+/// shallow. Up to three quarters of it the sunk surface's own edge is no farther from the line on paper than ink is wide; the
+/// rest is for the chord errors of both.
+pub const INTERSECTION_SHALLOW: f64 = 8.0;
 /// Of the deflection: how far a point may be from a surface, or from an ellipse, that it lies on.
 pub const INTERSECTION_MET: f64 = 1e-3;
 /// Of the deflection: how far the cubic pieces of an intersection line may be from it.

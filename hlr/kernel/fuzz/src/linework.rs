@@ -12,11 +12,15 @@ use hlr_linework::lines::geometry::{Geometry, Piece};
 use hlr_linework::lines::runs::cut;
 use hlr_linework::lines::simplify::simplify;
 use hlr_linework::lines::specks::drop_specks;
+use hlr_linework::lines::whose::{Order, Whose, scraps};
 use hlr_linework::lines::{Polyline, View, distance};
 use hlr_visibility::scan::invisibility::State;
 
 use super::bytes::Bytes;
 use super::topology::check_chains;
+
+/// The rank of shallow intersection lines.
+const SHALLOW: u8 = 10;
 
 struct Case {
     flat: Vec<[f64; 2]>,
@@ -54,10 +58,12 @@ pub fn run(data: &[u8]) {
     if case.proper {
         check_length(&case, &lines);
     }
-    let rank = ranked(&lines, &case.traits, &case.view, case.tolerances.space);
+    let whose: Vec<Whose> = lines.iter().map(|line| Whose::of(&case.about(line.chain as usize))).collect();
+    let scraps = scraps(&lines, &whose, case.tolerances.widths);
+    let rank = ranked(&lines, &case.traits, &scraps, &case.view, case.tolerances.space);
     check_ranks(&lines, &rank);
     let all = lines.clone();
-    let mut lines = uncovered(lines, &rank, case.tolerances.widths, &case.view);
+    let mut lines = uncovered(lines, &Order { rank: &rank, whose: &whose }, case.tolerances.widths, &case.view);
     check_lines(&case, &lines, "uncovered");
     check_cover(&case, &all, &lines);
     let kept = lines.clone();
@@ -92,10 +98,8 @@ fn check_ranks(lines: &[Polyline], rank: &[u32]) {
 /// What drawings call does the same steps; contours of meshes are smoothed within the accuracy.
 fn check_driver(case: &Case, geometry: &Geometry, unthinned: &[Polyline], thinned: &[Polyline]) {
     let mut chains = Chains::new();
-    for (edges, reversed) in &case.chains {
-        let kind = case.kind();
-        let about = About { kind, part: 0, edge: -1, face: -1, other: -1, noisy: false, straight: false };
-        chains.push(edges, reversed, about);
+    for (chain, (edges, reversed)) in case.chains.iter().enumerate() {
+        chains.push(edges, reversed, case.about(chain));
     }
     let Some(found) = drawn(geometry, &chains, &case.traits, &case.tolerances, &|| false) else {
         panic!("nothing stopped it");
@@ -180,7 +184,7 @@ fn read(bytes: &mut Bytes) -> Case {
     let noisy = bytes.bit();
     let traits = chains
         .iter()
-        .map(|_| Trait { noisy, rank: [0, 1, 3, 16][bytes.below(4)], without_brep: bytes.bit() })
+        .map(|_| Trait { noisy, rank: [0, 1, SHALLOW, 16][bytes.below(4)], without_brep: bytes.bit() })
         .collect();
     Case {
         flat,
@@ -209,6 +213,11 @@ impl Case {
     /// All are edges, or all are intersection lines: where both were, edges might go through a surface.
     fn kind(&self) -> Kind {
         if self.chains.len().is_multiple_of(2) { Kind::INTERSECTION } else { Kind::SHARP }
+    }
+
+    fn about(&self, chain: usize) -> About {
+        let (kind, shallow) = (self.kind(), self.traits[chain].rank == SHALLOW);
+        About { kind, part: 0, edge: -1, face: -1, other: -1, noisy: false, straight: false, shallow }
     }
 
     fn extent(&self) -> f64 {

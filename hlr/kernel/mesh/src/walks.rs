@@ -24,6 +24,8 @@ pub struct Walks {
     pub straight: Vec<bool>,
     /// Of an intersection line its curve.
     pub curve: Vec<i32>,
+    /// Along this intersection line one surface is nowhere deep in the other.
+    pub shallow: Vec<bool>,
 }
 
 impl Walks {
@@ -98,6 +100,7 @@ impl Walks {
             face: Vec::with_capacity(walks),
             straight: Vec::with_capacity(walks),
             curve: Vec::with_capacity(walks),
+            shallow: Vec::with_capacity(walks),
         }
     }
 
@@ -113,6 +116,7 @@ impl Walks {
         self.face.push(of.face[walk]);
         self.straight.push(of.straight[walk]);
         self.curve.push(of.curve[walk]);
+        self.shallow.push(of.shallow[walk]);
     }
 
     /// The same where there are any edges, which are then taken out.
@@ -159,7 +163,7 @@ pub fn source_walks(tables: &Tables, edges: &[[i32; 2]]) -> (Walks, Vec<[i32; 2]
     out.part = super::tables::per_item(&tables.edge_start);
     out.index.clone_from(&tables.edge_index);
     (out.other, out.face, out.curve) = (vec![-1; count], vec![-1; count], vec![-1; count]);
-    out.straight = vec![false; count];
+    (out.straight, out.shallow) = (vec![false; count], vec![false; count]);
     (out, loose)
 }
 
@@ -195,6 +199,7 @@ mod tests {
                 face: vec![-1],
                 straight: vec![w == 0],
                 curve: vec![-1],
+                shallow: vec![w == 1],
                 ..Walks::default()
             };
             out.push(edges, &vec![false; edges.len()], &about, 0);
@@ -208,6 +213,7 @@ mod tests {
         assert_eq!((found.part, found.edges), (vec![0, 0, 1, 2, 2], vec![0, 1, 3, 4, 5, 2, 6]));
         assert_eq!((found.offsets, found.index), (vec![0, 2, 3, 5, 6, 7], vec![0, 0, 1, 1, 2]));
         assert_eq!(found.straight, [true, true, false, false, false]);
+        assert_eq!(found.shallow, [false, false, true, true, false]);
     }
 
     #[test]

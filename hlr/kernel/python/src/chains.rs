@@ -53,6 +53,7 @@ fn chosen(walks: &Columns, drawn: &[bool]) -> Found {
                 other: walks.other[walk],
                 noisy: false,
                 straight: walks.straight[walk],
+                shallow: walks.shallow[walk],
             };
             out.push(&walks.edges[run.clone()], &walks.reversed[run], about);
         }

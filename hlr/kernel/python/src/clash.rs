@@ -61,8 +61,10 @@ pub fn clashes<'py>(
 }
 
 /// Intersection lines of a scene: points (n, 3), segments (m, 2) between them, the two groups (m, 2) of each segment,
-/// and a triangle of each group (m, 2); for every group whether it passes through itself; and the number of triangle pairs examined.
-pub type Crossings<'py> = (Rows<'py, f64>, Rows<'py, i32>, Rows<'py, i32>, Rows<'py, i32>, Flat<'py, bool>, u64);
+/// a triangle of each group (m, 2), and whether its line is shallow; for every group whether it passes through itself; and
+/// the number of triangle pairs examined.
+pub type Crossings<'py> =
+    (Rows<'py, f64>, Rows<'py, i32>, Rows<'py, i32>, Rows<'py, i32>, Flat<'py, bool>, Flat<'py, bool>, u64);
 
 /// groups: of the scene; contact: depths within which they touch.
 pub fn crossings<'py>(
@@ -83,6 +85,7 @@ pub fn crossings<'py>(
         table(py, found.segments)?,
         table(py, found.groups)?,
         table(py, found.triangles)?,
+        found.shallow.into_pyarray(py),
         found.through.into_pyarray(py),
         found.tests,
     ))

@@ -65,6 +65,9 @@ type Along<'py> = (
     PyReadonlyArray1<'py, f64>,
 );
 
+/// What is added to the rank of a shallow intersection line: edges and outlines that run beside it are drawn instead.
+const SHALLOW_RANK: u8 = 8;
+
 /// Lines on paper, chained, merged and thinned out, before curves are fitted to them.
 #[pyclass(frozen)]
 pub struct Cut {
@@ -114,7 +117,7 @@ impl Cut {
             // Where a shaft's outline lies on that of its bore, the shaft's is drawn.
             let behind = |c: usize| found.hidden.get(chains.edges[chains.offsets[c] as usize] as usize) == Some(&true);
             let trait_of = |(c, about): (usize, &About)| Trait {
-                rank: ranks[about.kind.0 as usize] + u8::from(behind(c)),
+                rank: ranks[about.kind.0 as usize] + u8::from(behind(c)) + if about.shallow { SHALLOW_RANK } else { 0 },
                 // The contours of meshes are smoothed; those of a B-rep's mesh have no accuracy left for it.
                 without_brep: !has_faces[about.part as usize],
                 noisy: about.noisy,

@@ -24,11 +24,13 @@ arrays! { Walks {
     face: flat Flat<'py, i32> = |w| &w.0.face;
     straight: flat Flat<'py, bool> = |w| &w.0.straight;
     curve: flat Flat<'py, i32> = |w| &w.0.curve;
+    shallow: flat Flat<'py, bool> = |w| &w.0.shallow;
 }
 
     #[new]
     #[pyo3(signature = (
-        offsets, edges, reversed, kind, part, *, index = None, other = None, face = None, straight = None, curve = None
+        offsets, edges, reversed, kind, part, *, index = None, other = None, face = None, straight = None, curve = None,
+        shallow = None
     ))]
     #[allow(clippy::too_many_arguments)] // one argument per column: the stub names them
     fn new(
@@ -43,6 +45,7 @@ arrays! { Walks {
         face: Option<PyReadonlyArray1<'_, i32>>,
         straight: Option<PyReadonlyArray1<'_, bool>>,
         curve: Option<PyReadonlyArray1<'_, i32>>,
+        shallow: Option<PyReadonlyArray1<'_, bool>>,
     ) -> PyResult<Walks> {
         caught(py, || {
             let (offsets, edges) = (slice(&offsets, "offsets")?, slice(&edges, "edges")?);
@@ -63,6 +66,7 @@ arrays! { Walks {
                 face: column(face, "face", count, -1)?,
                 straight: column(straight, "straight", count, false)?,
                 curve: column(curve, "curve", count, -1)?,
+                shallow: column(shallow, "shallow", count, false)?,
             }))
         })
     }

@@ -24,6 +24,8 @@ pub struct About {
     pub noisy: bool,
     /// Known to be straight, so that no curve is looked for.
     pub straight: bool,
+    /// An intersection line along which one surface is nowhere deep in the other.
+    pub shallow: bool,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -112,6 +114,7 @@ pub fn add_outlines(s: &Surface, found: &[i32], out: &mut Chains) {
             other: -1,
             noisy: true,
             straight: false,
+            shallow: false,
         };
         out.push(&edges, &walks.reversed[run], about);
     }

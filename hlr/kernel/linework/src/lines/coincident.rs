@@ -3,7 +3,8 @@
 //! A line is left out where a better one (lower rank: visible first, then kind, then nearer) runs close to it in nearly
 //! the same direction. Ranks are a strict order, so of two lines exactly one is left out. Only drawn lines count as
 //! better: the best are decided first, so that a stack of close lines does not vanish as a whole. Lines of one
-//! visibility are close if they coincide; a hidden line also if it lies under the width of a visible line.
+//! visibility are close if they coincide; a hidden line also if it lies under the width of a visible line, and a shallow
+//! intersection line if it is as near to a line of its own parts (`whose`).
 //!
 //! ```text
 //!   better  ===================
@@ -17,11 +18,12 @@ pub use super::gaps::Widths;
 use super::gaps::{Covered, Side, along, at, gaps, rest, still_there};
 use super::pairs::{Pair, pairs};
 use super::stretches::{Stretches, same_way};
+use super::whose::Order;
 use super::{Polyline, View, distance};
 
-/// Removes the stretches that better lines cover. `rank[i]` orders lines[i]; ranks are distinct.
-pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View) -> Vec<Polyline> {
-    let gone = covered_by_better(&lines, rank, widths, view);
+/// Removes the stretches that better lines cover. `order`: of lines[i]; ranks are distinct.
+pub fn uncovered(lines: Vec<Polyline>, order: &Order, widths: Widths, view: &View) -> Vec<Polyline> {
+    let gone = covered_by_better(&lines, order, widths, view);
     let cut = |(line, gaps): (&Polyline, &Vec<Covered>)| (!gaps.is_empty()).then(|| rest(line, gaps, widths, view));
     let pieces: Vec<Option<Vec<Polyline>>> = lines.par_iter().zip(&gone).map(cut).collect();
     let mut out = Vec::with_capacity(lines.len());
@@ -39,17 +41,17 @@ pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View
 /// Lines are decided one after another, the best first, and a side covers nothing once it is left out itself. Which sides
 /// cover which others is found before, for all at once. If there are too many, each line is compared with what is drawn
 /// so far alone: so a thousand lines that all cover one another take a thousand comparisons, and not a million.
-fn covered_by_better(lines: &[Polyline], rank: &[u32], widths: Widths, view: &View) -> Vec<Vec<Covered>> {
+fn covered_by_better(lines: &[Polyline], order: &Order, widths: Widths, view: &View) -> Vec<Vec<Covered>> {
     let (mut sides, mut first_side) = (Vec::new(), vec![0]);
     for (i, line) in lines.iter().enumerate() {
-        let mut start = 0.0;
+        let (mut start, shallow) = (0.0, order.whose[i].shallow);
         for w in line.flat.windows(2) {
-            sides.push(Side { visible: line.visible, line: i as u32, from: w[0], to: w[1], start });
+            sides.push(Side { visible: line.visible, shallow, line: i as u32, from: w[0], to: w[1], start });
             start += distance(&w[0], &w[1]);
         }
         first_side.push(sides.len());
     }
-    let stretches = Stretches { rank, widths, reach: widths.under.max(widths.same) };
+    let stretches = Stretches { order: *order, widths, reach: widths.under.max(widths.same) };
     let cutting = Cutting { lines, sides: &sides, first_side: &first_side, stretches, view };
     match pairs(&sides, &cutting.stretches) {
         Some(pairs) => cutting.by_pairs(&pairs),
@@ -70,7 +72,7 @@ impl Cutting<'_> {
     /// The numbers of the lines, the best first.
     fn order(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.lines.len()).collect();
-        order.par_sort_unstable_by_key(|&i| self.stretches.rank[i]);
+        order.par_sort_unstable_by_key(|&i| self.stretches.order.rank[i]);
         order
     }
 
@@ -158,7 +160,8 @@ impl Cutting<'_> {
 
     /// Leaves the covered stretches out of line i, and tells which of its sides are left out whole.
     fn cut_out(&self, i: usize, covered: &mut [Covered], gone: &mut [Vec<Covered>], mut left_out: impl FnMut(usize)) {
-        gone[i] = gaps(covered, &self.lines[i], self.sides, self.stretches.widths, self.view);
+        let wide = !self.lines[i].visible || self.stretches.order.whose[i].shallow;
+        gone[i] = gaps(covered, &self.lines[i], self.sides, wide, self.stretches.widths, self.view);
         let own = self.first_side[i]..self.first_side[i + 1];
         own.filter(|&side| self.sides[side].within_one_of(&gone[i])).for_each(&mut left_out);
     }
@@ -181,14 +184,25 @@ impl Cutting<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::whose::Whose;
     use super::*;
 
     const PARALLEL_VIEW: View = View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
 
+    /// Lines of parts that nothing is sunk into.
+    fn strangers(count: usize) -> Vec<Whose> {
+        (0..count as i32).map(|part| Whose { parts: [part, -1], shallow: false }).collect()
+    }
+
+    fn drawn(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View) -> Vec<Polyline> {
+        let whose = strangers(lines.len());
+        uncovered(lines, &Order { rank, whose: &whose }, widths, view)
+    }
+
     #[test]
     fn a_line_back_over_itself_is_drawn_once() {
         let rim = line(true, &[[0.0, 0.0], [5.0, 0.0], [10.0, 0.0], [5.0, 0.001], [0.0, 0.0]]);
-        let rest = uncovered(vec![rim], &[0], Widths { same: 0.01, under: 0.01 }, &PARALLEL_VIEW);
+        let rest = drawn(vec![rim], &[0], Widths { same: 0.01, under: 0.01 }, &PARALLEL_VIEW);
         assert_eq!(rest.len(), 1);
         assert_eq!(rest[0].flat, [[0.0, 0.0], [5.0, 0.0], [10.0, 0.0]]);
     }
@@ -200,7 +214,7 @@ mod tests {
         let lines = |turns: u32, climb: f64| {
             let mut points: Vec<[f64; 2]> = (0..turns).flat_map(|k| square(climb * f64::from(k))).collect();
             points.push(points[0]);
-            uncovered(vec![line(true, &points)], &[0], widths, &PARALLEL_VIEW)
+            drawn(vec![line(true, &points)], &[0], widths, &PARALLEL_VIEW)
         };
         let once = lines(1, 0.0);
         assert_eq!((once.len(), once[0].flat.len()), (1, 5), "closed, and not cut at its ends");
@@ -221,7 +235,7 @@ mod tests {
         // The ends at the gap are near each other, but must not be joined.
         let bent = line(false, &[[0.0, -1.0], [0.0, 0.0], [1.0, 0.0], [1.0, 0.02], [0.0, 0.02], [0.0, 1.0]]);
         let ink = line(true, &[[-0.1, 0.01], [1.1, 0.01]]);
-        let rest = uncovered(vec![ink, bent], &[0, 1], Widths { same: 0.005, under: 0.02 }, &PARALLEL_VIEW);
+        let rest = drawn(vec![ink, bent], &[0, 1], Widths { same: 0.005, under: 0.02 }, &PARALLEL_VIEW);
         assert_eq!(rest.len(), 3);
     }
 
@@ -237,7 +251,7 @@ mod tests {
             line(false, &[[10.0, 0.0], [4.0, 0.0], [4.0, 5.0]]),
             line(false, &[[6.0, 0.001], [20.0, 0.001]]),
         ];
-        let rest = uncovered(lines, &[0, 1, 2], Widths { same: 0.01, under: 0.01 }, &PARALLEL_VIEW);
+        let rest = drawn(lines, &[0, 1, 2], Widths { same: 0.01, under: 0.01 }, &PARALLEL_VIEW);
         assert_eq!(rest.len(), 3);
         assert_eq!(rest[1].flat[1], [4.0, 5.0]);
         assert!((rest[1].flat[0][1]).abs() < 0.05);
@@ -247,7 +261,7 @@ mod tests {
     #[test]
     fn crossing_lines_are_left_alone() {
         let lines = vec![line(true, &[[0.0, 0.0], [10.0, 0.0]]), line(false, &[[0.0, -2.0], [10.0, 2.0]])];
-        let rest = uncovered(lines.clone(), &[0, 1], Widths { same: 0.01, under: 0.01 }, &PARALLEL_VIEW);
+        let rest = drawn(lines.clone(), &[0, 1], Widths { same: 0.01, under: 0.01 }, &PARALLEL_VIEW);
         assert_eq!(rest, lines);
     }
 
@@ -271,13 +285,15 @@ mod tests {
         for (i, one) in lines.iter().enumerate() {
             let mut start = 0.0;
             for w in one.flat.windows(2) {
-                sides.push(Side { visible: one.visible, line: i as u32, from: w[0], to: w[1], start });
+                sides.push(Side { visible: one.visible, shallow: false, line: i as u32, from: w[0], to: w[1], start });
                 start += distance(&w[0], &w[1]);
             }
             first_side.push(sides.len());
         }
         let widths = Widths { same: 0.01, under: 0.2 };
-        let stretches = Stretches { rank: &rank, widths, reach: 0.2 };
+        let whose = strangers(lines.len());
+        let order = Order { rank: &rank, whose: &whose };
+        let stretches = Stretches { order, widths, reach: 0.2 };
         let all = pairs(&sides, &stretches).expect("not too many");
         let cutting =
             Cutting { lines: &lines, sides: &sides, first_side: &first_side, stretches, view: &PARALLEL_VIEW };
@@ -292,11 +308,14 @@ mod tests {
     #[test]
     fn a_stack_of_lines_is_too_many_for_pairs_and_is_drawn_once() {
         let lines: Vec<Polyline> = (0..3000).map(|_| line(true, &[[0.0, 0.0], [10.0, 0.0]])).collect();
-        let sides: Vec<Side> =
-            (0..3000).map(|line| Side { visible: true, line, from: [0.0, 0.0], to: [10.0, 0.0], start: 0.0 }).collect();
+        let sides: Vec<Side> = (0..3000)
+            .map(|line| Side { visible: true, shallow: false, line, from: [0.0, 0.0], to: [10.0, 0.0], start: 0.0 })
+            .collect();
         let rank: Vec<u32> = (0..3000).collect();
         let widths = Widths { same: 0.01, under: 0.2 };
-        assert_eq!(pairs(&sides, &Stretches { rank: &rank, widths, reach: 0.2 }), None);
-        assert_eq!(uncovered(lines, &rank, widths, &PARALLEL_VIEW).len(), 1);
+        let whose = strangers(lines.len());
+        let order = Order { rank: &rank, whose: &whose };
+        assert_eq!(pairs(&sides, &Stretches { order, widths, reach: 0.2 }), None);
+        assert_eq!(drawn(lines, &rank, widths, &PARALLEL_VIEW).len(), 1);
     }
 }

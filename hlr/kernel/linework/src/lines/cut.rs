@@ -11,6 +11,7 @@ use super::meetings::Meetings;
 use super::runs::{self, Limits};
 use super::simplify::simplify;
 use super::specks::drop_specks;
+use super::whose::{Order, SCRAP_CLASS, Whose, scraps};
 use super::{Polyline, View};
 use crate::fit::bezier::Chain;
 use crate::fit::pierced::Meeting;
@@ -34,7 +35,7 @@ pub struct Tolerances {
 /// Further properties of a chain.
 #[derive(Clone, Copy, Debug)]
 pub struct Trait {
-    /// Which of two coincident lines is drawn: first the lower rank / 16, then the nearer line, then the lower rank.
+    /// Which of two coincident lines is drawn: first the lower rank / 8, then the nearer line, then the lower rank.
     pub rank: u8,
     /// The chain belongs to a mesh without B-rep.
     pub without_brep: bool,
@@ -88,8 +89,10 @@ pub fn cut(
     if stopped() {
         return None;
     }
-    let ranks = ranked(&lines, traits, view, t.space);
-    let mut lines = uncovered(lines, &ranks, t.widths, view);
+    let whose: Vec<Whose> = lines.iter().map(|line| Whose::of(&chains.about[line.chain as usize])).collect();
+    let scraps = scraps(&lines, &whose, t.widths);
+    let ranks = ranked(&lines, traits, &scraps, view, t.space);
+    let mut lines = uncovered(lines, &Order { rank: &ranks, whose: &whose }, t.widths, view);
     drop_specks(&mut lines, t.short);
     let of_meshes = traits.iter().any(|of| of.without_brep);
     let ends = Ends::of(if of_meshes { &lines } else { &[] });
@@ -115,9 +118,10 @@ pub fn cut(
     Some(Cut { lines, smooth, meetings: met.moved() })
 }
 
-/// A strict order of lines: visible before hidden, then by rank / 16, then nearer first, then by rank, then by
+/// A strict order of lines: visible before hidden, then by rank / 8 (`scraps` come
+/// behind shallow intersection lines), then nearer first, then by rank, then by
 /// coordinates. Input order decides only between lines that are equal in every coordinate.
-pub fn ranked(lines: &[Polyline], traits: &[Trait], view: &View, space: f64) -> Vec<u32> {
+pub fn ranked(lines: &[Polyline], traits: &[Trait], scraps: &[bool], view: &View, space: f64) -> Vec<u32> {
     // Depths are rounded coarsely, so that rounding errors do not decide which of two lines at one depth is nearer.
     let grain = 1e-6 * space.max(f64::MIN_POSITIVE / 1e-6);
     let nearest: Vec<f64> = lines
@@ -126,12 +130,13 @@ pub fn ranked(lines: &[Polyline], traits: &[Trait], view: &View, space: f64) -> 
         .map(|depth| (depth / grain).round() + 0.0)
         .collect();
     let rank = |line: &Polyline| traits[line.chain as usize].rank;
+    let class = |i: u32| if scraps[i as usize] { SCRAP_CLASS } else { rank(&lines[i as usize]) >> 3 };
     let mut order: Vec<u32> = (0..lines.len() as u32).collect();
     order.par_sort_by(|&i, &j| {
         let (a, b) = (&lines[i as usize], &lines[j as usize]);
         b.visible
             .cmp(&a.visible)
-            .then_with(|| (rank(a) >> 4).cmp(&(rank(b) >> 4)))
+            .then_with(|| class(i).cmp(&class(j)))
             .then_with(|| nearest[i as usize].total_cmp(&nearest[j as usize]))
             .then_with(|| rank(a).cmp(&rank(b)))
             .then_with(|| {

@@ -69,7 +69,7 @@ mod tests {
         let mut side = |line: u32| {
             let (from, size) = ([next(100.0), next(60.0)], [0.1, 2.0, 50.0][line as usize % 3]);
             let to = [from[0] + next(size), from[1] + next(size)];
-            Side { visible: true, line, from, to, start: 0.0 }
+            Side { visible: true, shallow: false, line, from, to, start: 0.0 }
         };
         (0..count).map(&mut side).collect()
     }

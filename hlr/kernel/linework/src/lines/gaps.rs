@@ -8,12 +8,14 @@ use hlr_accuracy::{COVER_CROSSING, COVER_INK};
 pub struct Widths {
     /// For lines of equal visibility.
     pub same: f64,
-    /// For a hidden line beside a visible one.
+    /// For a hidden line beside a visible one, and for a shallow intersection line beside a line of its parts.
     pub under: f64,
 }
 
 pub(super) struct Side {
     pub(super) visible: bool,
+    /// Of a shallow intersection line.
+    pub(super) shallow: bool,
     pub(super) line: u32,
     pub(super) from: [f64; 2],
     pub(super) to: [f64; 2],
@@ -83,18 +85,20 @@ pub(super) fn still_there(from: f64, to: f64, places: [f64; 2], gone: &[Covered]
 /// The stretches (in arc length) that are left out, ascending. Rests shorter than twice the width of coincidence are
 /// left out too: a line that slants off would leave dots. Longer rests, up to twice the drawn line width, are left out
 /// only where they lie under a drawn line themselves.
+/// wide: of a hidden line, or a shallow intersection line, whose width is that of the ink.
 pub(super) fn gaps(
     covered: &mut [Covered],
     line: &Polyline,
     sides: &[Side],
+    wide: bool,
     widths: Widths,
     view: &View,
 ) -> Vec<Covered> {
     covered.sort_unstable_by(|a, b| a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to)).then(a.by.cmp(&b.by)));
-    let (total, width) = (line.length(), if line.visible { widths.same } else { widths.under });
+    let (total, width) = (line.length(), if wide { widths.under } else { widths.same });
     let goes = |from: f64, to: f64, beside: [u32; 2]| {
         to - from <= 2.0 * widths.same
-            || (!line.visible && to - from <= 2.0 * width && {
+            || (wide && to - from <= 2.0 * width && {
                 let ink: Vec<&Side> = beside.iter().map(|&s| &sides[s as usize]).filter(|s| s.visible).collect();
                 let under = |p: &[f64; 2]| ink.iter().any(|s| away(s, p) <= width);
                 let way = stretch(line, from, to, view).flat;
@@ -124,7 +128,7 @@ pub(super) fn gaps(
     {
         last.to = total;
     }
-    let crossing = COVER_CROSSING * if line.visible { width } else { width.max(COVER_INK * widths.same) };
+    let crossing = COVER_CROSSING * if wide { width.max(COVER_INK * widths.same) } else { width };
     merged.retain(|c| c.to - c.from >= crossing || c.to - c.from >= total);
     merged
 }

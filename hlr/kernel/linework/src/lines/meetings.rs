@@ -101,7 +101,16 @@ mod tests {
         let geometry =
             Geometry { camera: &camera, space: &space, meshed: &space, edges: &edges, pieces: &[], piece_edge: &[] };
         let mut chains = Chains::new();
-        let about = |kind| About { kind, part: 0, edge: -1, face: -1, other: -1, noisy: false, straight: false };
+        let about = |kind| About {
+            kind,
+            part: 0,
+            edge: -1,
+            face: -1,
+            other: -1,
+            noisy: false,
+            straight: false,
+            shallow: false,
+        };
         chains.push(&[0, 1], &[true, false], about(Kind::INTERSECTION));
         chains.push(&[2], &[false], about(Kind::SHARP));
         let met = Meetings::new(&geometry, &chains, 0.1);

@@ -7,7 +7,8 @@ use super::stretches::PARALLEL;
 /// How far off the sine of an angle may be that is computed with f32.
 const ROUNDED: f32 = 1e-5;
 
-/// How near boxes of sides come where the one may cover the other, mm: of one visibility, of two.
+/// How near boxes of sides come where the one may cover the other, mm: of one visibility, and of two or where one is of a
+/// shallow intersection line.
 pub(super) struct Gaps([f32; 2]);
 
 impl Gaps {
@@ -27,6 +28,7 @@ pub(super) struct Member {
     pub side: u32,
     line: u32,
     visible: bool,
+    shallow: bool,
 }
 
 impl Member {
@@ -40,6 +42,7 @@ impl Member {
             side: number,
             line: side.line,
             visible: side.visible,
+            shallow: side.shallow,
         }
     }
 
@@ -47,7 +50,7 @@ impl Member {
     /// each comes as near to the straight line through the other. Within one line only what runs back is covered, or
     /// around: that takes two sides between them.
     pub fn may_cover(&self, other: &Member, gaps: &Gaps) -> bool {
-        let gap = gaps.0[usize::from(self.visible != other.visible)];
+        let gap = gaps.0[usize::from(self.visible != other.visible || self.shallow || other.shallow)];
         // All four at once: most are far apart, and it cannot be foretold on which side.
         let [right, up, left, down] = self.out;
         let [a, b, c, d] = other.out;

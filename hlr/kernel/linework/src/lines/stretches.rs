@@ -1,6 +1,7 @@
 //! What stretch of a side of one line a side of another covers.
 
 use super::gaps::{Side, Widths};
+use super::whose::Order;
 
 /// Sine of the angle beyond which two lines cross rather than coincide. It is large because the chords of a circle that
 /// was divided in two ways differ in direction. Crossings at smaller angles are recognised by the length they cover.
@@ -15,8 +16,7 @@ const SURELY: f64 = 1.0 + 1e-6;
 
 /// What side covers what stretch of which other one.
 pub(super) struct Stretches<'a> {
-    /// A strict order of lines.
-    pub rank: &'a [u32],
+    pub order: Order<'a>,
     pub widths: Widths,
     /// The larger of the widths, mm.
     pub reach: f64,
@@ -34,13 +34,20 @@ impl Stretches<'_> {
             let again = !same_way(s, t) || way >= AROUND * self.widths.same;
             return again.then_some((a.max(b), a.min(b)));
         }
-        Some(if self.rank[s.line as usize] < self.rank[t.line as usize] { (b, a) } else { (a, b) })
+        Some(if self.order.rank[s.line as usize] < self.order.rank[t.line as usize] { (b, a) } else { (a, b) })
     }
 
     /// The stretch of a worse side that a better one covers, as parameters on the worse.
     pub fn covered(&self, worse: &Side, better: &Side) -> Option<(f64, f64)> {
-        let width = if worse.visible == better.visible { self.widths.same } else { self.widths.under };
+        let one = worse.visible == better.visible && !self.beside(worse, better);
+        let width = if one { self.widths.same } else { self.widths.under };
         covered(worse, better, width, self.widths.same)
+    }
+
+    /// Whether one of two lines is a shallow intersection line, and the other a line of its parts.
+    fn beside(&self, a: &Side, b: &Side) -> bool {
+        let whose = |side: &Side| &self.order.whose[side.line as usize];
+        a.line != b.line && (a.shallow || b.shallow) && whose(a).is_sunk_in(whose(b))
     }
 }
 

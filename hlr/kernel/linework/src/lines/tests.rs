@@ -37,7 +37,16 @@ impl Ring {
         let edges = self.edges();
         let mut chains = Chains::new();
         let numbers: Vec<i32> = (0..edges.len() as i32).collect();
-        let about = About { kind: self.kind, part: 3, edge: 7, face: -1, other: -1, noisy: false, straight: false };
+        let about = About {
+            kind: self.kind,
+            part: 3,
+            edge: 7,
+            face: -1,
+            other: -1,
+            noisy: false,
+            straight: false,
+            shallow: false,
+        };
         chains.push(&numbers, &vec![false; edges.len()], about);
         let traits = [Trait { rank: 0, without_brep: false, noisy: false }];
         let pieces: Vec<Piece> = (0..edges.len()).map(|e| Piece { start: 0.0, end: 1.0, state: state(e) }).collect();

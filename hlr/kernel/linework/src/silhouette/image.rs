@@ -111,6 +111,7 @@ impl Outlined {
             face: self.face_in_part.clone(),
             straight: vec![false; count],
             curve: vec![-1; count],
+            shallow: vec![false; count],
         }
     }
 

@@ -32,6 +32,7 @@ pub fn limit(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], points: &[Vec3
             let Some(width) = width(bodies, found, ends, points, &stretch) else { continue };
             for i in stretch {
                 depth[i].beyond = depth[i].beyond.min(width);
+                depth[i].certain = depth[i].certain.min(width);
             }
         }
     }
@@ -164,7 +165,7 @@ mod tests {
             deflection: DEFLECTION,
         };
         let clash = Clash { triangles: [0, 2], meeting: Meeting { ends: [[0; 3]; 2], depth: 0.0, sine: 1.0 } };
-        let mut depth = vec![Depth { touch: 1.0, level: 5.0, beyond: 5.0, reach: 5.0 }; ends.len()];
+        let mut depth = vec![Depth { touch: 1.0, level: 5.0, beyond: 5.0, certain: 5.0, reach: 5.0 }; ends.len()];
         let at: Vec<Vec3> = places.iter().map(|&x| [x, 0.0, 0.0]).collect();
         limit(&bodies, &vec![clash; ends.len()], ends, &at, &mut depth);
         assert!(depth.iter().all(|each| each.beyond == depth[0].beyond));

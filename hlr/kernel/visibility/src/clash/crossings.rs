@@ -30,6 +30,8 @@ pub struct Crossings {
     pub groups: Vec<[i32; 2]>,
     /// A triangle of each group of each segment.
     pub triangles: Vec<[i32; 2]>,
+    /// Per segment: one surface is nowhere deep in the other along its line.
+    pub shallow: Vec<bool>,
     /// Per group: it passes through itself.
     pub through: Vec<bool>,
     /// Pairs of triangles that were looked at.
@@ -95,6 +97,7 @@ pub fn crossings(
         segments: real.iter().map(|segment| segment.ends.map(number)).collect(),
         groups: real.iter().map(|segment| segment.groups.map(|g| g as i32)).collect(),
         triangles: real.iter().map(|segment| segment.triangles.map(|t| t as i32)).collect(),
+        shallow: real.iter().map(|segment| segment.shallow).collect(),
         through,
         tests: met.clashes.tests,
     })

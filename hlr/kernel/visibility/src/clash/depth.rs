@@ -13,7 +13,7 @@
 use super::planes::{Plane, Planes};
 use super::reach::{Sheet, Vec3};
 use super::search::Clash;
-use hlr_accuracy::{CONTACT_OF_ONE_SOLID, CONTACT_POINT, FLUSH};
+use hlr_accuracy::{CONTACT_AT_RIGHT_ANGLES, CONTACT_OF_ONE_SOLID, CONTACT_POINT, FLUSH, INTERSECTION_SHALLOW};
 use hlr_mesh::vector::{dot, sub};
 
 /// Sine of an angle: two tessellations of one curved surface never cross at more, as chords turn by at most half a
@@ -42,8 +42,10 @@ pub struct Depth {
     pub touch: f64,
     /// How far one surface goes beyond the other on its shallower side, near the crossing.
     pub level: f64,
-    /// How much deeper that is than a contact; negative for a contact.
+    /// How much deeper that is than a contact at right angles; negative for a contact.
     pub beyond: f64,
+    /// How much deeper that is than the whole contact depth.
+    pub certain: f64,
     /// How far one surface reaches beyond the other; hardly at all where it stands flush on it.
     pub reach: f64,
 }
@@ -86,6 +88,8 @@ impl Bodies<'_> {
         if groups[0] == groups[1] && solid {
             touch *= CONTACT_OF_ONE_SOLID;
         }
+        // Up to this depth surfaces are followed.
+        let most = touch.max(INTERSECTION_SHALLOW * self.deflection);
         let planes = clash.triangles.map(|t| self.planes.get(self.face[t as usize]));
         let across = clash.triangles.map(|t| self.across(t));
         let (reach, mut level) = self.corners_beyond(clash, &across);
@@ -93,37 +97,46 @@ impl Bodies<'_> {
         // A triangle that has only a corner or a side on the other's plane does not tell which way the surfaces cross.
         let astride = level[0].min(level[1]) > CONTACT_POINT * touch;
         let apart =
-            if solid && !steep && astride { self.sheet.apart(clash.triangles, middle, touch) } else { f64::INFINITY };
+            if solid && !steep && astride { self.sheet.apart(clash.triangles, middle, most) } else { f64::INFINITY };
         // Two planar faces in nearly one plane come apart by what their file rounded, over any length: that closes no gap
         // between lines (`level`), and only where it is more than a contact is it a line (`beyond`).
         let curved = planes.iter().any(Option::is_none);
-        let mut beyond = f64::INFINITY;
+        // Depth is measured at right angles to the surfaces. An edge that lies deeper than this behind one is hidden by it
+        // in some views, so from here on the line has to be there. Facets of meshes without B-rep cross by any depth where
+        // two of them stand for one curved surface, but only at small angles.
+        let one_solid = solid && groups[0] == groups[1];
+        let at_right_angles = if one_solid || !(solid || steep) { 1.0 } else { CONTACT_AT_RIGHT_ANGLES };
+        let (mut beyond, mut certain) = (f64::INFINITY, f64::INFINITY);
         for k in 0..2 {
             if curved && apart.is_finite() {
                 level[k] = apart;
             } else if solid {
-                let here = self.sheet.reach(&across[k].normal, clash.triangles[1 - k], middle, touch);
+                let here = self.sheet.reach(&across[k].normal, clash.triangles[1 - k], middle, most);
                 level[k] = if steep && here.is_finite() { here } else { level[k].min(here) };
             }
             let deep = if apart.is_finite() { apart } else { level[k] };
             // A planar face has no chord error: how far a wall goes beyond it is known, and another planar face at any
             // angle.
-            let forgiven = match (planes[k], planes[1 - k]) {
-                (Some(plane), other) if steep || other.is_some() => touch.min(FLUSH * self.deflection + plane.off),
-                _ => touch,
+            let (forgiven, most_forgiven) = match (planes[k], planes[1 - k]) {
+                (Some(plane), other) if steep || other.is_some() => {
+                    let rounded = touch.min(FLUSH * self.deflection + plane.off);
+                    (rounded, rounded)
+                }
+                _ => (touch * at_right_angles, touch),
             };
             beyond = beyond.min(deep - forgiven);
+            certain = certain.min(deep - most_forgiven);
         }
         let way = sub(ends[1], ends[0]);
         if solid && dot(&way, &way).sqrt() <= CONTACT_POINT * self.deflection {
             // A corner that touches: there is no direction in which its depth could be measured.
-            beyond = f64::NEG_INFINITY;
+            (beyond, certain) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
         }
         let level = level[0].min(level[1]);
         // The surface goes on beyond a triangle that has no more than a corner on the other side, and beyond its
         // neighbours too.
         let reach = if solid && steep { reach.max(level) } else { reach };
-        Depth { touch, level, beyond, reach }
+        Depth { touch, level, beyond, certain, reach }
     }
 
     /// Two measures. First: how far each triangle with its neighbours reaches beyond the other's plane on its shallower
