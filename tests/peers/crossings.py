@@ -5,7 +5,7 @@
 A pair of parts with an intersection line needs a common volume, else the line is wrong. A common volume needs a line,
 else that is missing, unless
 
-- it is thinner on paper than the depth up to which curved surfaces count as touching, or
+- it is thinner on paper than the accuracy, the depth up to which curved surfaces count as touching, or
 - the box of one part lies within that of the other: a plate let into a block, flush, has no line but its own edges.
 
 Exit code 1 if a line is wrong or missing. OpenCASCADE works in a process of its own: it may crash, or never end.
@@ -27,7 +27,6 @@ import numpy.typing as npt
 
 import hlr
 from hlr.drawing.drawing import Drawing
-from hlr.request.accuracy import CONTACT
 from hlr.source import open_source
 from hlr.source.model import Source
 from support.at_size import ALL_LINES
@@ -140,7 +139,7 @@ def compare(drawing: Drawing, parts: Floats, common: Common) -> Compared:
             untold += 1
         else:
             drawn.add(pair)
-    touching = CONTACT * drawing.accuracy.deflection
+    touching = drawing.accuracy.used / (drawing.unit * drawing.scale)
     volumes = {pair for pair, thick in common.thickness.items() if thick > 0.0}
     missing = {
         pair
