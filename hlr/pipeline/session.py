@@ -130,7 +130,7 @@ class Session:
         With a page or a size to fit into, the scale depends on the outlines: these are then traced here.
         lines_alone: nothing but lines is made of the drafts, so a sphere may be meshed coarsely.
         """
-        started, counted = perf_counter(), sum(self.clock.values())
+        started, meshing = perf_counter(), 0.0
         planner = Planner(drawing_effects(), self.options)
         note_reading(planner, self.source)
         with planner.deciding():
@@ -140,8 +140,9 @@ class Session:
             perspective = any([camera.eye is not None for camera in self.cameras])
         coarser = 1.0 if planner.on("fine mesh", Facts(sphere=sphere, perspective=perspective)) else SPHERE_MESH
         for _ in range(MOST_MESHINGS):
-            finest = self._finest()
+            finest, begun = self._finest(), perf_counter()
             self.scene, meshed = self.scene_at(finest, self.placements[0].tolerances.angle, planner, coarser)
+            meshing += perf_counter() - begun
             note_meshing(planner, self.scene)
             pairs = zip(self.cameras, self.placements, strict=True)
             drafts = [self._draft(camera, placement, planner.fork()) for camera, placement in pairs]
@@ -157,8 +158,8 @@ class Session:
             self.parts = [part for i, part in enumerate(meshed.parts) if i not in repeated]
         self.looks = self.source.appearances() if self.source.transparent() else {}
         self.remarks = [] if self.options.see_through else hiding(self.scene, self.looks)
-        # Images belong to all views, as the scene does. The rest counts in its own stages.
-        lap(self.clock, "scene", started + sum(self.clock.values()) - counted)
+        # Images and the sizes of their outlines belong to all views, as the scene does.
+        lap(self.clock, "scene", started + meshing)
         return drafts
 
     def _finest(self) -> float:
@@ -172,7 +173,6 @@ class Session:
         """Give drafts their final scales. Outlines have to fit: they reach beyond the mesh, within the accuracy."""
         if all([placement.settled for placement in self.placements]):
             return
-        started = perf_counter()
         surfaces = self.scene.true_surfaces
         bends = surfaces is not None and bool(surfaces.curved_faces or (np.diff(self.scene.walks.offsets) > 1).any())
         traced, fitted = [], []
@@ -188,7 +188,6 @@ class Session:
                 # At another scale the outlines are traced anew: finer, or less fine.
                 same = placement.tolerances.deflection == before.tolerances.deflection
                 draft.image = (found if same else draft.image).placed(placement)
-        lap(self.clock, "plan", started)
 
     def shown(self, draft: Draft) -> Image:
         """The image as it is drawn: with outlines, clipped, and without glass where the viewer sees through it."""
