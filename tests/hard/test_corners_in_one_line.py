@@ -113,6 +113,6 @@ def test_a_mesh_with_needles_by_rays(degrees, kind, tmp_path):
 @pytest.mark.slow
 def test_without_the_turning_edges_are_lost(monkeypatch):
     monkeypatch.setattr(_kernel, "without_needles", lambda *_: None)
-    shape = plate(60)
+    shape = plate(30)
     with pytest.raises(AssertionError, match="wrong_hidden"):
         list(faultless(with_needles(shape), shape, ["top", "iso", "iso-sw", (0.2, 0.3, 1)], 6000))

@@ -66,6 +66,12 @@ def test_an_iges_file_is_drawn_as_the_solid(tmp_path, name, view):
     same(drawing, hlr.draw(shape, view, **AT_SIZE))
 
 
+@pytest.mark.parametrize("beside", [1e-6, -5e-6])
+def test_a_cut_beside_the_seam_leaves_no_film(tmp_path, beside):
+    """Where the plane is moved onto the seam of the ball, two triangles of it lay on one another."""
+    assert not hlr.draw(as_faces(both(), tmp_path), "front", section=beside, **AT_SIZE).notes
+
+
 @pytest.mark.parametrize("name", MODELS)
 def test_it_is_cut_and_hatched_as_the_solid(tmp_path, name):
     shape = MODELS[name]()

@@ -1,11 +1,14 @@
-//! Whether the pieces of a body are what a plane leaves of it: closed, and of the right volume.
+//! Whether the pieces of a body are what a plane leaves of it: closed, of the right volume, and without films.
+
+use std::collections::HashSet;
 
 use super::divided_body::DividedBody;
 use super::enclosed::Enclosed;
 use super::plane::Plane;
 use crate::body::{Body, model_of};
+use crate::explore::Part;
 use crate::geometry::vector::length;
-use crate::tessellate::{LIMITS, Watch, tessellate};
+use crate::tessellate::{LIMITS, MeshedFace, Watch, tessellate};
 use hlr_accuracy::CUT_DISPLACED;
 
 /// Of the area of a closed mesh: how far its area, as a vector, may be from zero.
@@ -41,11 +44,27 @@ pub fn check(
         if length(&piece.area) > OPEN * piece.size {
             return Err("a piece does not close");
         }
+        if has_film(part, &meshed.faces) {
+            return Err("a piece is so thin that it lies on itself");
+        }
         whole.volume += piece.volume;
         whole.size += piece.size;
     }
     let most = 6.0 * CUT_DISPLACED * deflection * (below.size + whole.size);
     if (whole.volume - below.volume).abs() > most { Err("what is left has another volume") } else { Ok(()) }
+}
+
+/// Whether some triangle of a piece lies on another one, as between a plane and a seam that runs right beside it.
+fn has_film(part: &Part, faces: &[MeshedFace]) -> bool {
+    let meshes = || part.faces.iter().map(|placed| &faces[placed.face as usize].mesh);
+    let mut seen = HashSet::with_capacity(meshes().map(|mesh| mesh.triangles.len()).sum());
+    meshes().any(|mesh| {
+        mesh.triangles.iter().any(|triangle| {
+            let mut corners = triangle.map(|i| mesh.points[i as usize].map(f64::to_bits));
+            corners.sort_unstable();
+            !seen.insert(corners)
+        })
+    })
 }
 
 #[cfg(test)]
@@ -73,6 +92,10 @@ mod tests {
             assert_eq!(checked(std::slice::from_ref(&body)), whole);
             let open = Body { faces: body.faces[..2].to_vec(), ..body.clone() };
             assert_eq!(checked(&[open]), Err("a piece does not close"));
+            let mut film = body.clone();
+            film.faces.extend([body.faces[0].clone(), body.faces[0].clone()]);
+            film.faces[body.faces.len()].reversed = !body.faces[0].reversed;
+            assert_eq!(checked(&[film]), Err("a piece is so thin that it lies on itself"));
         }
     }
 }
