@@ -142,9 +142,10 @@ def _twins(a: Pieces, b: Pieces, same: tuple[str, ...]) -> Array:
 
 
 def _fitting(a: Pieces, b: Pieces, rule: Rule) -> Iterator[tuple[Index, Index]]:
-    """Batches of pairs near one another that agree in what the rule asks for."""
+    """Batches of pairs near one another that agree in what the rule asks for. Pieces without a length are in none."""
+    some_a, some_b = a.lengths > 0.0, b.lengths > 0.0
     for i, j in pairs(a, b, rule.reach_mm):
-        fits = _alike(a, b, i, j, rule)
+        fits = _alike(a, b, i, j, rule) & some_a[i] & some_b[j]
         yield i[fits], j[fits]
 
 
