@@ -8,6 +8,7 @@ import numpy as np
 
 from hlr.compare.lines.pieces import Array, Floats, Index, Pieces
 from hlr.linework.hatching import SPACINGS
+from hlr.tables.line_classes import LINE_CLASSES
 
 _ONE_LINE_MM = 0.02
 """Strokes that lie less far apart, across their direction, are on one line: files round."""
@@ -88,6 +89,11 @@ class HatchLines:
     def _beside(self, low: Floats, high: Floats) -> Array:
         first, last = self.strokes[:, 0].min() - self.spacing, self.strokes[:, 1].max() + self.spacing
         return np.asarray((high >= first) & (low <= last))
+
+
+def hatches_of(pieces: Pieces) -> Array:
+    """(n,) which pieces belong to a hatch."""
+    return np.asarray(pieces.kind == LINE_CLASSES["hatch"].number)
 
 
 def runs_of(pieces: Pieces) -> Index:

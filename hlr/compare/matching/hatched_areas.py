@@ -7,7 +7,8 @@ stroke as well, and then both are hatched there, or it has none::
       ---\\---\\---o---o---        the second drawing (\\) is hatched as far as the third line:
           \\   \\                  the rest of the stroke (---) is in the first drawing only
 
-So areas are told apart that are wider than the spacings of both. The edges around an area are compared as lines.
+So areas are told apart that are wider than one and a half times the wider spacing of the two. The edges around an area
+are compared as lines.
 """
 
 from __future__ import annotations
@@ -19,10 +20,10 @@ import numpy as np
 
 from hlr.compare.lines.pieces import Array, Floats, Index, Pieces, joined
 from hlr.compare.lines.sketch import About
-from hlr.compare.matching.hatch_lines import HatchLines, runs_of
+from hlr.compare.matching.hatch_edges import divided_by_edges, edges_of
+from hlr.compare.matching.hatch_lines import HatchLines, hatches_of, runs_of
 from hlr.drawing.chords import numbered
 from hlr.linework.hatching import SPACINGS
-from hlr.tables.line_classes import LINE_CLASSES
 
 _PARALLEL = 0.2
 """Sine of the angle between two hatches whose lines do not cross often enough."""
@@ -43,11 +44,6 @@ _A_SPACING = 2
 def told_apart(one: Pieces, other: Pieces) -> bool:
     """Whether both drawings say which of their lines are hatches."""
     return bool((one.kind >= 0).all() and (other.kind >= 0).all())
-
-
-def hatches_of(pieces: Pieces) -> Array:
-    """(n,) which pieces belong to a hatch."""
-    return np.asarray(pieces.kind == LINE_CLASSES["hatch"].number)
 
 
 def without_hatches(one: Pieces, other: Pieces) -> tuple[Pieces, Pieces]:
@@ -76,18 +72,20 @@ class Hatches:
 
     lines  of each part that is hatched, by its number; None: they are not parallel, or not evenly spaced
     names  of all parts, as the other drawing may call them; empty: unknown
+    edges  all that is visible but for hatches
     """
 
     pieces: Pieces
     lines: Mapping[int, HatchLines | None]
     names: tuple[str, ...]
+    edges: Pieces
 
     @staticmethod
     def of(pieces: Pieces, about: About | None = None) -> Hatches:
         """The hatches among pieces, as of `by_part`. about: of the drawing; None: parts have no names."""
         some = pieces.take(hatches_of(pieces))
         lines = {part: HatchLines.of(some.take(some.part == part)) for part in np.unique(some.part).tolist()}
-        return Hatches(some, lines, () if about is None else own_names(about))
+        return Hatches(some, lines, () if about is None else own_names(about), edges_of(pieces))
 
     def name(self, part: int) -> str | None:
         """The name of a part; None: unknown."""
@@ -106,7 +104,8 @@ class Hatches:
             named = self.name(part) in other.names
             same = [k for k in other.lines if not named or other.name(k) == self.name(part)]
             for k in same:
-                both, left = _divided(left, self.lines[part], other.lines[k], tolerance_mm, named)
+                own = _Own(self.lines[part], self.edges)
+                both, left = _divided(left, own, other.lines[k], tolerance_mm, named)
                 inside.append(both)
             speck = not same and float(left.lengths.sum()) < SPACINGS[0]
             (inside if speck else outside).append(left)
@@ -123,12 +122,20 @@ def own_names(about: About) -> tuple[str, ...]:
     return tuple(names)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Own:
+    """What is drawn around strokes. lines: of all strokes of their hatch; edges: of their drawing."""
+
+    lines: HatchLines | None
+    edges: Pieces
+
+
 def _divided(
-    some: Pieces, own: HatchLines | None, other: HatchLines | None, tolerance_mm: float, named: bool
+    some: Pieces, own: _Own, other: HatchLines | None, tolerance_mm: float, named: bool
 ) -> tuple[Pieces, Pieces]:
     """Strokes of one hatch as far as they lie inside and outside the area of another.
 
-    own: the lines of all strokes of the first; named: whether the other is that of the part of the same name. Where
+    own: what is drawn around the strokes; named: whether the other is that of the part of the same name. Where
     nothing says on which lines the other has its strokes, all lies outside.
     """
     if other is None or not len(some) or not (named or other.meets(np.concatenate([some.start, some.end]))):
@@ -204,7 +211,7 @@ class _Strokes:
         return np.asarray(self.place[whose][:, None] + self.length[whose][:, None] * shares)
 
 
-def _looks(strokes: _Strokes, own: HatchLines | None, other: HatchLines, tolerance_mm: float) -> _Looks:
+def _looks(strokes: _Strokes, own: _Own, other: HatchLines, tolerance_mm: float) -> _Looks:
     """Where strokes say whether the other hatch is there."""
     ways = strokes.end - strokes.start
     steep = np.abs(ways @ other.across) > _PARALLEL * strokes.length
@@ -227,10 +234,11 @@ def _where_they_cross(strokes: _Strokes, which: Index, other: HatchLines, tolera
     return _Looks(whose, share, ~other.drawn(line, strokes.at(whose, share), border))
 
 
-def _beside(strokes: _Strokes, which: Index, own: HatchLines | None, other: HatchLines, tolerance_mm: float) -> _Looks:
+def _beside(strokes: _Strokes, which: Index, own: _Own, other: HatchLines, tolerance_mm: float) -> _Looks:
     """Strokes that are parallel to the other hatch: the lines of that on both sides of them say whether it is there.
 
-    Where both are bare, that says something only if the strokes' own hatch reaches as far as one of them.
+    Where both are bare, that says something only if the strokes' own area reaches as far as one of them: its hatch has
+    to be around that place, and no edge before it. Between teeth, the lines on both sides may run in the gaps.
     """
     border = _BORDER * tolerance_mm
     count = np.ceil(_A_SPACING * strokes.length[which] / other.spacing).astype(np.int64)
@@ -240,14 +248,24 @@ def _beside(strokes: _Strokes, which: Index, own: HatchLines | None, other: Hatc
     points = strokes.at(whose, share)
     level = other.level(points)
     on_line = np.abs(level - np.rint(level)) * other.spacing <= _ON_LINE * tolerance_mm
-    there, reaches = np.zeros(len(whose), bool), on_line | (own is None)
-    for line in (np.floor(level), np.ceil(level)):
-        line = np.where(on_line, np.rint(level), line).astype(np.int64)  # noqa: PLW2901 - its own line
-        there |= other.drawn(line, points, np.where(on_line, 0.0, border))
-        if own is not None:
-            foot = points + ((line - level) * other.spacing)[:, None] * other.across
-            height = own.level(foot)
-            reaches |= np.logical_and(
-                *(own.drawn(side.astype(np.int64), foot, border) for side in (np.floor(height), np.ceil(height)))
-            )
-    return _Looks(whose, share, ~there & reaches)
+    lines = [np.where(on_line, np.rint(level), line).astype(np.int64) for line in (np.floor(level), np.ceil(level))]
+    there = [other.drawn(line, points, np.where(on_line, 0.0, border)) for line in lines]
+    bare = ~(there[0] | there[1])
+    reaches = on_line | (own.lines is None)
+    if own.lines is not None:
+        for line in lines:
+            looked = np.flatnonzero(bare & ~reaches)
+            foot = points[looked] + ((line - level)[looked] * other.spacing)[:, None] * other.across
+            reaches[looked] = _one_area(points[looked], foot, own.lines, own.edges, tolerance_mm)
+    return _Looks(whose, share, bare & reaches)
+
+
+def _one_area(points: Floats, foot: Floats, lines: HatchLines, edges: Pieces, tolerance_mm: float) -> Array:
+    """(n,) whether the area of a hatch around points (n, 2) reaches to a place (n, 2) beside each."""
+    height, border = lines.level(foot), _BORDER * tolerance_mm
+    around = np.logical_and(
+        *(lines.drawn(side.astype(np.int64), foot, border) for side in (np.floor(height), np.ceil(height)))
+    )
+    near = np.flatnonzero(around)
+    around[near] = ~divided_by_edges(points[near], foot[near], edges, tolerance_mm)
+    return np.asarray(around)

@@ -12,7 +12,8 @@ import numpy as np
 from hlr.compare.difference import KINDS, UNKNOWN, VERDICTS, Difference, Kind
 from hlr.compare.lines.pieces import Floats, Pieces, joined
 from hlr.compare.lines.sketch import CHORD_SHARE, About
-from hlr.compare.matching.hatched_areas import Hatches, by_part, hatches_of, told_apart
+from hlr.compare.matching.hatch_lines import hatches_of
+from hlr.compare.matching.hatched_areas import Hatches, by_part, told_apart
 from hlr.compare.matching.match import Rule, divided_by, once, partners
 from hlr.compare.reading.sides import Side
 from hlr.tables.line_classes import names
