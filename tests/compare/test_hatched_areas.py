@@ -184,3 +184,12 @@ def test_rays_do_not_judge_hatches(pump):
     found = compare(replace(whole, lines=tuple(bare)), pump)
     assert hatch_mm(found).keys() == {"new"} and found.wrong_mm == 0.0 and found.unjudged_mm > 50.0
     assert fails(found, "ours")  # nothing of it was judged
+
+
+def test_a_part_of_one_drawing_alone_is_not_said_to_have_other_lines(pump):
+    """The ends of its strokes lie at the border of the body, which is hatched in both."""
+    body = cq.Assembly()
+    body.add(pump.objects["body"].obj, name="body")
+    one, other = (hlr.draw(model, "front", section=0.0, scale=1) for model in (pump, body))
+    for found in (compare(one, other), compare(other, one)):
+        assert not found.same and "pin" not in found.rehatched, found.summary

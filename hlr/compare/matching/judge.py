@@ -171,9 +171,23 @@ def _hatched(
         other.divided(one, tolerance_mm, strokes[1]),
     )
     found.same = both if found.same is None else joined([found.same, both])
-    names = [whose.name(part) for whose, some in ((one, both), (other, also)) for part in np.unique(some.part).tolist()]
-    found.rehatched = tuple(sorted({name for name in names if name}))
+    names = _mostly_shared(one, both, gone) | _mostly_shared(other, also, new)
+    found.rehatched = tuple(sorted(names))
     return gone, new
+
+
+def _mostly_shared(whose: Hatches, both: Pieces, alone: Pieces) -> set[str]:
+    """Names of the parts of which more strokes lie where both drawings are hatched than elsewhere.
+
+    At the border to another part short ends of strokes seem to lie in its hatch.
+    """
+    parts = np.unique(both.part).tolist()
+    most = [part for part in parts if _length_of(both, part) > _length_of(alone, part)]
+    return {name for name in map(whose.name, most) if name}
+
+
+def _length_of(pieces: Pieces, part: int) -> float:
+    return float(pieces.lengths[pieces.part == part].sum())
 
 
 def _doubled(found: Findings, side: Side, name: Literal["before", "after"], tolerance_mm: float) -> None:
