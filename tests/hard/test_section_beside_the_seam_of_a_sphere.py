@@ -38,5 +38,16 @@ def test_it_is_hatched_as_through_the_middle(hollow: bool, beside: float) -> Non
         assert line.points[[0, -1]] == pytest.approx(other.points[[0, -1]], abs=1e-4)
 
 
+@pytest.mark.parametrize("beside", [0.0, 1e-15, -1e-12, 1e-8, -1e-6])
+def test_corners_of_the_seam_that_differ_by_rounding(beside: float) -> None:
+    """A bar through a ball divides its seam: its corners lie 1e-15 mm apart across the plane."""
+    model = cq.Workplane().sphere(5).union(cq.Workplane().box(20, 3, 3))
+    drawing = hlr.draw(model, "front", section=beside, **AT_SIZE)
+    assert not drawing.notes
+    half = np.arcsin(1.5 / 5.0)
+    across = 2.0 * (25.0 * half + 1.5 * 5.0 * np.cos(half))  # of the bar within the ball
+    assert measured_area(drawing) == pytest.approx(np.pi * 25.0 + 60.0 - across, rel=0.02)
+
+
 def test_picture(picture):
     picture(hlr.draw(ball(True), "front", section=5e-6, **AT_SIZE))

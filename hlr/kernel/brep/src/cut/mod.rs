@@ -86,20 +86,20 @@ fn try_cut(
         return Err("one body of its faces lies within another");
     }
     let cut = cut_body(&body, plane, stopped);
-    match through_corners(&body, plane) {
+    match through_a_corner(&body, plane) {
         Some(moved) if cut.is_err() => cut_body(&body, &moved, stopped).or(cut),
         _ => cut,
     }
 }
 
-/// The plane in the middle of the corners that lie on it, where it runs beside them. A sphere whose seam lies nearly in
-/// the plane is cut along the seam: between the two, what is left of the sphere would be too narrow to follow.
-fn through_corners(body: &Body, plane: &Plane) -> Option<Plane> {
-    let ends = || body.edges.iter().flat_map(|edge| edge.end_points).flatten();
-    let heights = || ends().filter(|point| plane.holds(point)).map(|point| plane.height(&point));
-    let [low, high] = [heights().reduce(f64::min)?, heights().reduce(f64::max)?];
-    let middle = 0.5 * (low + high);
-    (middle != 0.0).then_some(Plane { level: plane.level + middle, ..*plane })
+/// The plane through the lowest of the corners that lie on it, where it runs beside that. A sphere whose seam lies
+/// nearly in the plane is cut along the seam: between the two, what is left of the sphere would be too narrow to follow.
+///
+/// It runs through a corner exactly. In the middle of several that differ by rounding alone it would run through none.
+fn through_a_corner(body: &Body, plane: &Plane) -> Option<Plane> {
+    let ends = body.edges.iter().flat_map(|edge| edge.end_points).flatten();
+    let lowest = ends.filter(|point| plane.holds(point)).map(|point| plane.height(&point)).reduce(f64::min)?;
+    (lowest != 0.0).then_some(Plane { level: plane.level + lowest, ..*plane })
 }
 
 fn cut_body(body: &Body, plane: &Plane, stopped: &(dyn Fn() -> bool + Sync)) -> Result<Cut, &'static str> {
