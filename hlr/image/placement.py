@@ -111,12 +111,8 @@ def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> P
 
     Raises OptionError for an accuracy that cannot be kept, SourceError for a model without size.
     """
-    low, high = bounds.tolist()
-    if not all(map(math.isfinite, (*low, *high))):
-        raise SourceError(f"{source.name} has no finite size: repair the model")
+    check_size(source, bounds)
     corners = bounds[CORNERS, AXES]
-    if max([b - a for a, b in zip(low, high, strict=True)]) <= 0.0:
-        raise SourceError(f"{source.name} has no size: all of it lies in one point")
     aspect = _aspect(options)
     width, height = _extent(camera, corners, aspect)
     brep = is_brep(source.kind)
@@ -125,6 +121,15 @@ def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> P
     placed = placed.foreseen(camera, options, source)
     stray = stray_note(source, camera)
     return placed if stray is None else replace(placed, notes=(*placed.notes, stray))
+
+
+def check_size(source: Source, bounds: Floats) -> None:
+    """Raise SourceError where a bounding box (2, 3) is not finite, or all of it is one point."""
+    low, high = bounds.tolist()
+    if not all(map(math.isfinite, (*low, *high))):
+        raise SourceError(f"{source.name} has no finite size: repair the model")
+    if max([b - a for a, b in zip(low, high, strict=True)]) <= 0.0:
+        raise SourceError(f"{source.name} has no size: all of it lies in one point")
 
 
 def _extent(camera: Camera, points: Floats, aspect: float) -> tuple[float, float]:

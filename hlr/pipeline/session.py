@@ -28,7 +28,7 @@ from hlr.image.camera import Camera, resolve
 from hlr.image.clip import clipped
 from hlr.image.image import Image, image_of
 from hlr.image.outlines import outlined
-from hlr.image.placement import Placement, of_one_scale, place
+from hlr.image.placement import Placement, check_size, of_one_scale, place
 from hlr.image.transparency import glass_of, hiding, opacity_of, without_glass
 from hlr.linework.curves import EdgeCurveLookup
 from hlr.linework.lines import draw_lines
@@ -121,7 +121,11 @@ class Session:
         return scene, meshed
 
     def scene_by_size(self) -> Scene:
-        """The scene for a purpose without a drawing: meshed at a two-thousandth of its size."""
+        """The scene for a purpose without a drawing: meshed at a two-thousandth of its size.
+
+        Raises SourceError for a model without size.
+        """
+        check_size(self.source, self.bounds)
         return self.scene_at(diagonal(self.bounds) / SMALL_DRAWING)[0]
 
     def drafts(self, lines_alone: bool = False) -> list[Draft]:

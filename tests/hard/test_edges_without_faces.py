@@ -12,6 +12,12 @@ from itertools import pairwise
 import cadquery as cq
 import pytest
 from hard.brep import arc, compound, like, ring
+from OCP.BRep import BRep_Builder
+from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeVertex
+from OCP.Geom import Geom_Line
+from OCP.gp import gp_Dir, gp_Pnt
+from OCP.TopAbs import TopAbs_FORWARD, TopAbs_REVERSED
+from OCP.TopoDS import TopoDS_Edge
 
 import hlr
 from hlr.drawing.notes import Note
@@ -75,3 +81,20 @@ def test_beside_a_solid_they_are_left_out_with_a_note(picture):
     assert {drawing.parts[line.part].name for line in drawing.lines} == {"box"}
     assert len(drawing.lines) == 12
     picture(drawing)
+
+
+def an_edge_without_length():
+    line = Geom_Line(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0))
+    ends = [BRepBuilderAPI_MakeVertex(gp_Pnt(0, 0, 0)).Vertex() for _ in range(2)]
+    edge, builder = TopoDS_Edge(), BRep_Builder()
+    builder.MakeEdge(edge, line, 1e-7)
+    builder.Add(edge, ends[0].Oriented(TopAbs_FORWARD))
+    builder.Add(edge, ends[1].Oriented(TopAbs_REVERSED))
+    builder.Range(edge, 0.0, 0.0)
+    return cq.Edge(edge)
+
+
+@pytest.mark.parametrize("done", [hlr.info, hlr.draw])
+def test_one_without_length_is_refused(done):
+    with pytest.raises(hlr.SourceError, match="has no size: all of it lies in one point"):
+        done(an_edge_without_length())
