@@ -23,6 +23,10 @@ Looks = Callable[[], Mapping[str, Appearance]]
 ONE_PLACE = 1e-6
 """Of a part's size: equal parts this close are said to lie in one place. Those of a sheet's thickness are not."""
 
+OF_THICKNESS = 0.25
+"""Of a part's thickness: equal parts that are farther apart are not one. In a pile of thin ones every other one would
+be left out, and what lies behind would be seen between the rest."""
+
 MAX_NOTES = 5
 """Places with a note of their own; one more note has the number of all others."""
 
@@ -50,7 +54,7 @@ class Repeats:
 def without_repeats(whole: PartMeshes, near: float, looks: Looks) -> tuple[Repeats, PartMeshes]:
     """Which parts repeat an earlier one, and the parts with the meshes of all others alone.
 
-    near: how far a point may be from its copy, model units. The parts look the same, too.
+    near: how far a point may be from its copy at most, model units; less in thin parts. The parts look the same, too.
     """
     tables = whole.tables
     parts, firsts, apart = tables.repeats(near) if len(tables) > 1 and near > 0.0 else _NONE
@@ -61,6 +65,8 @@ def without_repeats(whole: PartMeshes, near: float, looks: Looks) -> tuple[Repea
     unlike: dict[int, list[int]] = {}  # in one place with a part, and of other looks than it and one another
     for part, first, distance in zip(parts.tolist(), firsts.tolist(), apart.tolist(), strict=True):
         there = distance <= ONE_PLACE * _size(tables, first)
+        if not there and distance > OF_THICKNESS * _thickness(tables, first):
+            continue
         stand = [first, *unlike.get(first, ())] if there else [first]
         like = [i for i in stand if _look_alike(labels[i], labels[part], look)]
         if like:
@@ -80,6 +86,16 @@ _NONE = np.zeros(0, np.int32), np.zeros(0, np.int32), np.zeros(0)
 def _size(tables: _kernel.PartTables, part: int) -> float:
     points = tables.points[tables.point_start[part] : tables.point_start[part + 1]]
     return float(np.ptp(points, axis=0).max())
+
+
+def _thickness(tables: _kernel.PartTables, part: int) -> float:
+    """That of a sheet of the part's volume and surface, model units; an open flat sheet has none."""
+    own = tables.triangles[tables.triangle_start[part] : tables.triangle_start[part + 1]]
+    a, b, c = np.moveaxis(tables.points[own] - tables.points[own[0, 0]], 1, 0)
+    normals = np.cross(b - a, c - a)
+    area = 0.5 * float(np.sqrt((normals * normals).sum(axis=1)).sum())
+    volume = abs(float((a * normals).sum())) / 6.0
+    return 2.0 * volume / area if area > 0.0 else 0.0
 
 
 def _look_alike(one: PartLabel | Part, other: PartLabel | Part, looks: Mapping[str, Appearance]) -> bool:

@@ -70,6 +70,19 @@ def test_those_off_by_less_than_an_eighth_of_the_accuracy_count_as_one():
     assert work(drawn(copies(2, bolt(), 4 * little))) > work(one)
 
 
+@pytest.mark.parametrize("thickness", [3, 5])
+def test_no_sheet_of_a_pile_is_left_out(thickness):
+    """Sheets thinner than an eighth of the accuracy, which lie on one another: the pile hides a post behind it."""
+    pile = cq.Assembly()
+    for k in range(40):
+        pile.add(cq.Workplane().box(1000, 1000, thickness), loc=cq.Location((0, 0, k * thickness)))
+    pile.add(cq.Workplane().box(50, 50, 3000), loc=cq.Location((0, 600, 0)))
+    drawing = hlr.draw(pile, "front", scale="1:100", hidden=True, accuracy=0.5)
+    behind = [line.points[[0, -1], 1] for line in drawing.lines if line.part == 40 and not line.visible]
+    low, high = 15 - thickness / 200, 15 - thickness / 200 + 40 * thickness / 100
+    assert [pytest.approx((low, high), abs=0.01)] * 2 == [sorted(ends) for ends in behind]
+
+
 def test_those_of_other_colours_stay_and_are_told():
     model = beside_a_plate(*[(bolt(), 0, (RED, BLUE)[i % 2]) for i in range(6)])
     found, two = drawn(model), drawn(beside_a_plate((bolt(), 0, RED), (bolt(), 0, BLUE)))
