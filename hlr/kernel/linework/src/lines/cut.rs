@@ -118,9 +118,9 @@ pub fn cut(
     Some(Cut { lines, smooth, meetings: met.moved() })
 }
 
-/// A strict order of lines: visible before hidden, then by rank / 8 (`scraps` come
-/// behind shallow intersection lines), then nearer first, then by rank, then by
-/// coordinates. Input order decides only between lines that are equal in every coordinate.
+/// A strict order of lines: visible before hidden, then by rank / 8 (`scraps` come behind shallow intersection lines),
+/// then nearer first, then by rank, then by coordinates. Input order decides only between lines that are equal in every
+/// coordinate.
 pub fn ranked(lines: &[Polyline], traits: &[Trait], scraps: &[bool], view: &View, space: f64) -> Vec<u32> {
     // Depths are rounded coarsely, so that rounding errors do not decide which of two lines at one depth is nearer.
     let grain = 1e-6 * space.max(f64::MIN_POSITIVE / 1e-6);
