@@ -61,9 +61,9 @@ pub const CONTACT_POINT: f64 = 1e-3;
 /// Of the deflection, over the sine of the angle between two surfaces: how far the line of their meshes may be from the
 /// true one. Each mesh is off by one deflection.
 pub const INTERSECTION_MOVE: f64 = 4.0;
-/// Of the deflection, of which an accuracy has two: a line along which one surface is nowhere deeper in the other is
-/// shallow. Up to three quarters of it the sunk surface's own edge is no farther from the line on paper than ink is wide; the
-/// rest is for the chord errors of both.
+/// Of the deflection: an intersection line along which one surface is nowhere deeper in the other is shallow. This is four
+/// accuracies. Up to three of them, the sunk surface's own edge and the line are less far apart on paper than a pen is
+/// wide; the fourth is for the chord errors of both.
 pub const INTERSECTION_SHALLOW: f64 = 8.0;
 /// Of the deflection: how far a point may be from a surface, or from an ellipse, that it lies on.
 pub const INTERSECTION_MET: f64 = 1e-3;

@@ -9,10 +9,10 @@ use hlr_linework::lines::cut::{Tolerances, Trait, cut as drawn, ranked};
 use hlr_linework::lines::drawing::Kind;
 use hlr_linework::lines::ends::Ends;
 use hlr_linework::lines::geometry::{Geometry, Piece};
+use hlr_linework::lines::owners::{Order, Owners, short_pieces};
 use hlr_linework::lines::runs::cut;
 use hlr_linework::lines::simplify::simplify;
 use hlr_linework::lines::specks::drop_specks;
-use hlr_linework::lines::whose::{Order, Whose, scraps};
 use hlr_linework::lines::{Polyline, View, distance};
 use hlr_visibility::scan::invisibility::State;
 
@@ -58,12 +58,12 @@ pub fn run(data: &[u8]) {
     if case.proper {
         check_length(&case, &lines);
     }
-    let whose: Vec<Whose> = lines.iter().map(|line| Whose::of(&case.about(line.chain as usize))).collect();
-    let scraps = scraps(&lines, &whose, case.tolerances.widths);
-    let rank = ranked(&lines, &case.traits, &scraps, &case.view, case.tolerances.space);
+    let owners: Vec<Owners> = lines.iter().map(|line| Owners::of(&case.about(line.chain as usize))).collect();
+    let short_pieces = short_pieces(&lines, &owners, case.tolerances.widths);
+    let rank = ranked(&lines, &case.traits, &short_pieces, &case.view, case.tolerances.space);
     check_ranks(&lines, &rank);
     let all = lines.clone();
-    let mut lines = uncovered(lines, &Order { rank: &rank, whose: &whose }, case.tolerances.widths, &case.view);
+    let mut lines = uncovered(lines, &Order { rank: &rank, owners: &owners }, case.tolerances.widths, &case.view);
     check_lines(&case, &lines, "uncovered");
     check_cover(&case, &all, &lines);
     let kept = lines.clone();

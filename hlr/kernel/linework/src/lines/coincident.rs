@@ -16,9 +16,9 @@ use rayon::prelude::*;
 use super::drawn::Drawn;
 pub use super::gaps::Widths;
 use super::gaps::{Covered, Side, along, at, gaps, rest, still_there};
+use super::owners::Order;
 use super::pairs::{Pair, pairs};
 use super::stretches::{Stretches, same_way};
-use super::whose::Order;
 use super::{Polyline, View, distance};
 
 /// Removes the stretches that better lines cover. `order`: of lines[i]; ranks are distinct.
@@ -44,7 +44,7 @@ pub fn uncovered(lines: Vec<Polyline>, order: &Order, widths: Widths, view: &Vie
 fn covered_by_better(lines: &[Polyline], order: &Order, widths: Widths, view: &View) -> Vec<Vec<Covered>> {
     let (mut sides, mut first_side) = (Vec::new(), vec![0]);
     for (i, line) in lines.iter().enumerate() {
-        let (mut start, shallow) = (0.0, order.whose[i].shallow);
+        let (mut start, shallow) = (0.0, order.owners[i].shallow);
         for w in line.flat.windows(2) {
             sides.push(Side { visible: line.visible, shallow, line: i as u32, from: w[0], to: w[1], start });
             start += distance(&w[0], &w[1]);
@@ -160,7 +160,7 @@ impl Cutting<'_> {
 
     /// Leaves the covered stretches out of line i, and tells which of its sides are left out whole.
     fn cut_out(&self, i: usize, covered: &mut [Covered], gone: &mut [Vec<Covered>], mut left_out: impl FnMut(usize)) {
-        let wide = !self.lines[i].visible || self.stretches.order.whose[i].shallow;
+        let wide = !self.lines[i].visible || self.stretches.order.owners[i].shallow;
         gone[i] = gaps(covered, &self.lines[i], self.sides, wide, self.stretches.widths, self.view);
         let own = self.first_side[i]..self.first_side[i + 1];
         own.filter(|&side| self.sides[side].within_one_of(&gone[i])).for_each(&mut left_out);
@@ -184,19 +184,19 @@ impl Cutting<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::whose::Whose;
+    use super::super::owners::Owners;
     use super::*;
 
     const PARALLEL_VIEW: View = View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
 
     /// Lines of parts that nothing is sunk into.
-    fn strangers(count: usize) -> Vec<Whose> {
-        (0..count as i32).map(|part| Whose { parts: [part, -1], shallow: false }).collect()
+    fn strangers(count: usize) -> Vec<Owners> {
+        (0..count as i32).map(|part| Owners { parts: [part, -1], shallow: false }).collect()
     }
 
     fn drawn(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View) -> Vec<Polyline> {
-        let whose = strangers(lines.len());
-        uncovered(lines, &Order { rank, whose: &whose }, widths, view)
+        let owners = strangers(lines.len());
+        uncovered(lines, &Order { rank, owners: &owners }, widths, view)
     }
 
     #[test]
@@ -291,8 +291,8 @@ mod tests {
             first_side.push(sides.len());
         }
         let widths = Widths { same: 0.01, under: 0.2 };
-        let whose = strangers(lines.len());
-        let order = Order { rank: &rank, whose: &whose };
+        let owners = strangers(lines.len());
+        let order = Order { rank: &rank, owners: &owners };
         let stretches = Stretches { order, widths, reach: 0.2 };
         let all = pairs(&sides, &stretches).expect("not too many");
         let cutting =
@@ -313,8 +313,8 @@ mod tests {
             .collect();
         let rank: Vec<u32> = (0..3000).collect();
         let widths = Widths { same: 0.01, under: 0.2 };
-        let whose = strangers(lines.len());
-        let order = Order { rank: &rank, whose: &whose };
+        let owners = strangers(lines.len());
+        let order = Order { rank: &rank, owners: &owners };
         assert_eq!(pairs(&sides, &Stretches { order, widths, reach: 0.2 }), None);
         assert_eq!(drawn(lines, &rank, widths, &PARALLEL_VIEW).len(), 1);
     }

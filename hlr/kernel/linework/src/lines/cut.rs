@@ -8,10 +8,10 @@ use super::drawing::Kind;
 use super::ends::Ends;
 use super::geometry::Geometry;
 use super::meetings::Meetings;
+use super::owners::{Order, Owners, SHORT_PIECE_CLASS, short_pieces};
 use super::runs::{self, Limits};
 use super::simplify::simplify;
 use super::specks::drop_specks;
-use super::whose::{Order, SCRAP_CLASS, Whose, scraps};
 use super::{Polyline, View};
 use crate::fit::bezier::Chain;
 use crate::fit::pierced::Meeting;
@@ -89,10 +89,10 @@ pub fn cut(
     if stopped() {
         return None;
     }
-    let whose: Vec<Whose> = lines.iter().map(|line| Whose::of(&chains.about[line.chain as usize])).collect();
-    let scraps = scraps(&lines, &whose, t.widths);
-    let ranks = ranked(&lines, traits, &scraps, view, t.space);
-    let mut lines = uncovered(lines, &Order { rank: &ranks, whose: &whose }, t.widths, view);
+    let owners: Vec<Owners> = lines.iter().map(|line| Owners::of(&chains.about[line.chain as usize])).collect();
+    let short_pieces = short_pieces(&lines, &owners, t.widths);
+    let ranks = ranked(&lines, traits, &short_pieces, view, t.space);
+    let mut lines = uncovered(lines, &Order { rank: &ranks, owners: &owners }, t.widths, view);
     drop_specks(&mut lines, t.short);
     let of_meshes = traits.iter().any(|of| of.without_brep);
     let ends = Ends::of(if of_meshes { &lines } else { &[] });
@@ -118,10 +118,10 @@ pub fn cut(
     Some(Cut { lines, smooth, meetings: met.moved() })
 }
 
-/// A strict order of lines: visible before hidden, then by rank / 8 (`scraps` come behind shallow intersection lines),
+/// A strict order of lines: visible before hidden, then by rank / 8 (`short_pieces` come behind shallow intersections),
 /// then nearer first, then by rank, then by coordinates. Input order decides only between lines that are equal in every
 /// coordinate.
-pub fn ranked(lines: &[Polyline], traits: &[Trait], scraps: &[bool], view: &View, space: f64) -> Vec<u32> {
+pub fn ranked(lines: &[Polyline], traits: &[Trait], short_pieces: &[bool], view: &View, space: f64) -> Vec<u32> {
     // Depths are rounded coarsely, so that rounding errors do not decide which of two lines at one depth is nearer.
     let grain = 1e-6 * space.max(f64::MIN_POSITIVE / 1e-6);
     let nearest: Vec<f64> = lines
@@ -130,7 +130,7 @@ pub fn ranked(lines: &[Polyline], traits: &[Trait], scraps: &[bool], view: &View
         .map(|depth| (depth / grain).round() + 0.0)
         .collect();
     let rank = |line: &Polyline| traits[line.chain as usize].rank;
-    let class = |i: u32| if scraps[i as usize] { SCRAP_CLASS } else { rank(&lines[i as usize]) >> 3 };
+    let class = |i: u32| if short_pieces[i as usize] { SHORT_PIECE_CLASS } else { rank(&lines[i as usize]) >> 3 };
     let mut order: Vec<u32> = (0..lines.len() as u32).collect();
     order.par_sort_by(|&i, &j| {
         let (a, b) = (&lines[i as usize], &lines[j as usize]);

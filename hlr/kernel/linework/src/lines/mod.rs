@@ -30,12 +30,12 @@ pub mod geometry;
 mod loops;
 mod meetings;
 mod members;
+pub mod owners;
 mod pairs;
 pub mod runs;
 pub mod simplify;
 pub mod specks;
 mod stretches;
-pub mod whose;
 
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,7 @@
 //! What stretch of a side of one line a side of another covers.
 
 use super::gaps::{Side, Widths};
-use super::whose::Order;
+use super::owners::Order;
 
 /// Sine of the angle beyond which two lines cross rather than coincide. It is large because the chords of a circle that
 /// was divided in two ways differ in direction. Crossings at smaller angles are recognised by the length they cover.
@@ -46,8 +46,8 @@ impl Stretches<'_> {
 
     /// Whether one of two lines is a shallow intersection line, and the other a line of its parts.
     fn beside(&self, a: &Side, b: &Side) -> bool {
-        let whose = |side: &Side| &self.order.whose[side.line as usize];
-        a.line != b.line && (a.shallow || b.shallow) && whose(a).is_sunk_in(whose(b))
+        let owners = |side: &Side| &self.order.owners[side.line as usize];
+        a.line != b.line && (a.shallow || b.shallow) && owners(a).is_sunk_in(owners(b))
     }
 }
 

@@ -13,24 +13,24 @@ use super::candidates::About;
 use super::gaps::Widths;
 use hlr_accuracy::COVER_CROSSING;
 
-/// The rank / 8 of scraps: behind shallow intersection lines, as smooth edges.
-pub const SCRAP_CLASS: u8 = 2;
+/// The rank / 8 of short pieces of sunk edges: behind shallow intersection lines, as smooth edges.
+pub const SHORT_PIECE_CLASS: u8 = 2;
 
 /// Whose a line is: its part, and of an intersection line the other one.
 #[derive(Clone, Copy, Debug)]
-pub struct Whose {
+pub struct Owners {
     pub parts: [i32; 2],
     /// An intersection line along which one surface is nowhere deep in the other.
     pub shallow: bool,
 }
 
-impl Whose {
-    pub fn of(about: &About) -> Whose {
-        Whose { parts: [about.part, about.other], shallow: about.shallow }
+impl Owners {
+    pub fn of(about: &About) -> Owners {
+        Owners { parts: [about.part, about.other], shallow: about.shallow }
     }
 
     /// Whether one of two is a shallow intersection line of the other's part.
-    pub fn is_sunk_in(&self, other: &Whose) -> bool {
+    pub fn is_sunk_in(&self, other: &Owners) -> bool {
         (self.shallow || other.shallow) && self.parts.iter().any(|&part| part >= 0 && other.parts.contains(&part))
     }
 }
@@ -39,18 +39,18 @@ impl Whose {
 #[derive(Clone, Copy)]
 pub struct Order<'a> {
     pub rank: &'a [u32],
-    pub whose: &'a [Whose],
+    pub owners: &'a [Owners],
 }
 
 /// Visible pieces of the edges of sunk parts that are too short to leave anything out of the intersection line beside
 /// them: what covers less of a line counts as crossing it. They are left out instead.
-pub fn scraps(lines: &[Polyline], whose: &[Whose], widths: Widths) -> Vec<bool> {
-    let mut sunk: Vec<i32> = whose.iter().filter(|of| of.shallow).flat_map(|of| of.parts).collect();
+pub fn short_pieces(lines: &[Polyline], owners: &[Owners], widths: Widths) -> Vec<bool> {
+    let mut sunk: Vec<i32> = owners.iter().filter(|of| of.shallow).flat_map(|of| of.parts).collect();
     sunk.sort_unstable();
     sunk.dedup();
-    let of_sunk = |of: &Whose| !of.shallow && sunk.binary_search(&of.parts[0]).is_ok();
+    let of_sunk = |of: &Owners| !of.shallow && sunk.binary_search(&of.parts[0]).is_ok();
     let short = |line: &Polyline| line.visible && line.length() < COVER_CROSSING * widths.under;
-    lines.iter().zip(whose).map(|(line, of)| of_sunk(of) && short(line)).collect()
+    lines.iter().zip(owners).map(|(line, of)| of_sunk(of) && short(line)).collect()
 }
 
 #[cfg(test)]
@@ -61,10 +61,10 @@ mod tests {
 
     const VIEW: View = View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
     const WIDTHS: Widths = Widths { same: 0.01, under: 0.1 };
-    const FOOT: Whose = Whose { parts: [1, -1], shallow: false };
-    const STRANGER: Whose = Whose { parts: [7, -1], shallow: false };
-    const SHALLOW: Whose = Whose { parts: [0, 1], shallow: true };
-    const DEEP: Whose = Whose { parts: [0, 1], shallow: false };
+    const FOOT: Owners = Owners { parts: [1, -1], shallow: false };
+    const STRANGER: Owners = Owners { parts: [7, -1], shallow: false };
+    const SHALLOW: Owners = Owners { parts: [0, 1], shallow: true };
+    const DEEP: Owners = Owners { parts: [0, 1], shallow: false };
 
     /// A level line.
     fn level(from: f64, to: f64, y: f64) -> Polyline {
@@ -73,8 +73,8 @@ mod tests {
     }
 
     /// The x of the ends of what is left of an edge from 2 to 6, and of an intersection line from 0 to 10 beside it.
-    fn left(edge: Whose, line: Whose) -> Vec<[f64; 2]> {
-        let order = Order { rank: &[0, 1], whose: &[edge, line] };
+    fn left(edge: Owners, line: Owners) -> Vec<[f64; 2]> {
+        let order = Order { rank: &[0, 1], owners: &[edge, line] };
         let found = uncovered(vec![level(2.0, 6.0, 0.05), level(0.0, 10.0, 0.0)], &order, WIDTHS, &VIEW);
         found.iter().map(|line| [line.flat[0][0], line.flat[1][0]]).collect()
     }
@@ -96,11 +96,11 @@ mod tests {
     }
 
     #[test]
-    fn short_visible_pieces_of_sunk_edges_are_scraps() {
+    fn short_visible_pieces_of_sunk_edges_give_way() {
         let mut lines = vec![level(2.0, 2.5, 0.05), level(2.0, 2.7, 0.05), level(2.0, 2.5, 0.05), level(0.0, 0.5, 0.0)];
         lines[2].visible = false;
-        assert_eq!(scraps(&lines, &[FOOT, FOOT, FOOT, SHALLOW], WIDTHS), [true, false, false, false]);
-        assert_eq!(scraps(&lines, &[STRANGER, FOOT, FOOT, SHALLOW], WIDTHS), [false; 4]);
-        assert_eq!(scraps(&lines, &[FOOT, FOOT, FOOT, DEEP], WIDTHS), [false; 4]);
+        assert_eq!(short_pieces(&lines, &[FOOT, FOOT, FOOT, SHALLOW], WIDTHS), [true, false, false, false]);
+        assert_eq!(short_pieces(&lines, &[STRANGER, FOOT, FOOT, SHALLOW], WIDTHS), [false; 4]);
+        assert_eq!(short_pieces(&lines, &[FOOT, FOOT, FOOT, DEEP], WIDTHS), [false; 4]);
     }
 }
