@@ -16,19 +16,23 @@ from OCP.GProp import GProp_GProps
 from OCP.Quantity import Quantity_Color, Quantity_ColorRGBA, Quantity_TypeOfColor
 from OCP.STEPCAFControl import STEPCAFControl_Reader, STEPCAFControl_Writer
 from OCP.TCollection import TCollection_ExtendedString
-from OCP.TDF import TDF_AttributeSequence, TDF_LabelSequence
 from OCP.TDocStd import TDocStd_Document
 from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Compound, TopoDS_Iterator
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_GraphNode
-from OCP.XCAFPrs import XCAFPrs, XCAFPrs_IndexedDataMapOfShapeStyle
+from OCP.XCAFPrs import XCAFPrs
 
 import hlr
 from hlr.source.cad.colors import srgb
 from hlr.source.cad.occt_collections import new_collection
 from hlr.source.cad.shapes import sub_shapes
 from hlr.source.cad.step import open_step
+
+try:
+    from OCP.collections import IndexedDataMap_TopoDS_Shape_XCAFPrs_Style_TopTools_ShapeMapHasher as StyleMap
+except ModuleNotFoundError:
+    from OCP.XCAFPrs import XCAFPrs_IndexedDataMapOfShapeStyle as StyleMap
 
 RED, GREEN, BLUE, GLASS = (1, 0, 0, 1), (0, 1, 0, 1), (0, 0, 1, 1), (1, 0, 1, 0.5)
 
@@ -89,7 +93,7 @@ class Document:
         parts = [self.shapes.AddComponent(inner, product, place) for place in places]
         halves = [self.shapes.AddComponent(outer, inner, place) for place in [TopLoc_Location(), _along_x(100)]]
         self.shapes.UpdateAssemblies()
-        way, nodes = TDF_LabelSequence(), TDF_AttributeSequence()
+        way, nodes = new_collection("labels"), new_collection("attributes")
         way.Append(halves[1])
         way.Append(parts[0])
         assert self.shapes.SetSHUO(way, XCAFDoc_GraphNode())
@@ -182,7 +186,7 @@ def of_viewer(path: Path) -> Counter[FaceColor]:
     tool.GetFreeShapes(free)
     found: Counter[FaceColor] = Counter()
     for i in range(1, free.Length() + 1):
-        styles = XCAFPrs_IndexedDataMapOfShapeStyle()
+        styles = StyleMap()
         XCAFPrs.CollectStyleSettings_s(free.Value(i), TopLoc_Location(), styles)
         _look_up(tool.GetShape_s(free.Value(i)), None, styles, found)
     return found

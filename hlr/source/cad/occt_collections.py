@@ -17,6 +17,7 @@ COLLECTION_CLASSES = {
     ),
     "shapes": ("List_TopoDS_Shape", "TopTools.TopTools_ListOfShape"),
     "labels": ("Sequence_TDF_Label", "TDF.TDF_LabelSequence"),
+    "attributes": ("Sequence_TDF_Attribute", "TDF.TDF_AttributeSequence"),
     "points": ("Array1_gp_Pnt", "TColgp.TColgp_Array1OfPnt"),
     "point_net": ("Array2_gp_Pnt", "TColgp.TColgp_Array2OfPnt"),
     "reals": ("Array1_double", "TColStd.TColStd_Array1OfReal"),

@@ -11,6 +11,7 @@ from typing import Any
 
 from hlr.common.types import Rgba
 from hlr.source.cad.annotation import label_entry
+from hlr.source.cad.occt_collections import new_collection
 
 
 class OverridingColors:
@@ -35,9 +36,7 @@ class OverridingColors:
     def _nodes_at(self, label: Any) -> list[Any]:
         key = label_entry(label)
         if key not in self._nodes:
-            from OCP.TDF import TDF_AttributeSequence
-
-            found = TDF_AttributeSequence()
+            found = new_collection("attributes")
             if self._shapes.IsComponent_s(label):
                 self._shapes.GetAllComponentSHUO_s(label, found)
             self._nodes[key] = [found.Value(i) for i in range(1, found.Length() + 1)]
