@@ -13,7 +13,7 @@ import numpy.typing as npt
 from hlr import Options
 from hlr.drawing.drawing import Drawing
 from hlr.source import open_source
-from hlr.source.model import PartMesh, Source, Tessellation
+from hlr.source.model import Appearance, PartMesh, Source, Tessellation
 from support.at_size import ALL_LINES
 from support.stand_ins import draw_source
 
@@ -64,6 +64,9 @@ class Disturbed:
 
     def transparent(self) -> bool:
         return False
+
+    def appearances(self) -> dict[str, Appearance]:
+        return {}
 
     def mesh(self, *_: Any) -> Tessellation:
         return self._meshed

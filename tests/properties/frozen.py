@@ -14,7 +14,7 @@ import numpy as np
 
 from hlr import Drawing, Options
 from hlr.source import open_source
-from hlr.source.model import Frame, PartInfo, PartMesh, Tessellation
+from hlr.source.model import Appearance, Frame, PartInfo, PartMesh, Tessellation
 from support.at_size import AT_SIZE
 from support.stand_ins import draw_source
 
@@ -41,6 +41,9 @@ class Frozen:
 
     def transparent(self) -> bool:
         return False
+
+    def appearances(self) -> dict[str, Appearance]:
+        return {}
 
     @property
     def points(self) -> np.ndarray:

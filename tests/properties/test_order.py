@@ -5,7 +5,8 @@ IDENTICAL  the bytes of SVG, PDF and JSON (but for the timings), counters among 
            though the same in every coordinate, may be listed in another order;
            under any order of faces and of parts, once they are numbered as before. What belongs to two parts has the
            lower numbered one as its owner, so the following are compared without owners, and else as exactly: lines
-           where two parts intersect, and all lines where two parts have one in common in every coordinate.
+           where two parts intersect, and all lines where two parts have one in common in every coordinate. Equal
+           parts in one place count as one while they are listed alike: there the counters may differ, and no line.
            In the kernel, on integers, under any order of the points: the same pieces, their ends within one unit in
            the last place of 1 (an edge is walked from its lower point, so a parameter t may become 1 - t).
 MAY MOVE   under any order of the points lines begin elsewhere, and so leave out other vertices: ink moves by at most
@@ -41,8 +42,14 @@ holes = st.lists(pieces(st.sampled_from((0, 30, 45, 90))), min_size=1, max_size=
 
 
 def expect_same_files(before, after):
-    """All bytes, but for the place of intersection lines, and for notes, which name the first parts with defects."""
+    """All bytes, but for the place of intersection lines, and for notes, which name the first parts with defects.
+
+    Equal parts in one place count as one while their triangles and faces are listed alike: that changes how much there
+    is to do, and no line.
+    """
     assert ownerless(after) == ownerless(before)
+    if any(note.code == "parts-repeated" for note in before.notes):
+        after = replace(after, counters=before.counters, plan=before.plan)
     assert after.counters == before.counters
     one, other = (replace(without(each, "intersection"), notes=()) for each in (before, after))
     assert everything(other) == everything(one)

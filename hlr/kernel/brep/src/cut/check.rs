@@ -1,4 +1,4 @@
-//! Whether the pieces of a body are what a plane leaves of it: closed, of the right volume, and without films.
+//! Whether the pieces of a body are what a plane leaves of it: closed, and of the right volume.
 
 use std::collections::HashSet;
 
@@ -14,12 +14,15 @@ use hlr_accuracy::CUT_DISPLACED;
 /// Of the area of a closed mesh: how far its area, as a vector, may be from zero.
 const OPEN: f64 = 1e-7;
 
+/// A piece may be so thin that its coarse mesh lies on itself, as a slice of a ball. `films`: whether that is accepted.
+///
 /// # Errors
 /// What is wrong with the pieces.
 pub fn check(
     divided: &DividedBody,
     pieces: &[Body],
     plane: &Plane,
+    films: bool,
     deflection: f64,
     angle: f64,
     watch: &Watch,
@@ -44,7 +47,7 @@ pub fn check(
         if length(&piece.area) > OPEN * piece.size {
             return Err("a piece does not close");
         }
-        if has_film(part, &meshed.faces) {
+        if !films && has_film(part, &meshed.faces) {
             return Err("a piece is so thin that it lies on itself");
         }
         whole.volume += piece.volume;
@@ -88,14 +91,15 @@ mod tests {
             let plane = Plane { normal: [0.0, 0.0, 1.0], level, near: 1e-7 };
             let coarse = tessellate(&model_of(vec![body.clone()], false), deflection, 0.2, LIMITS, &watch).unwrap();
             let divided = DividedBody::new(body.clone(), coarse, &plane, 0.0).unwrap();
-            let checked = |pieces: &[Body]| check(&divided, pieces, &plane, deflection, 0.2, &watch);
-            assert_eq!(checked(std::slice::from_ref(&body)), whole);
+            let checked = |films, pieces: &[Body]| check(&divided, pieces, &plane, films, deflection, 0.2, &watch);
+            assert_eq!(checked(false, std::slice::from_ref(&body)), whole);
             let open = Body { faces: body.faces[..2].to_vec(), ..body.clone() };
-            assert_eq!(checked(&[open]), Err("a piece does not close"));
+            assert_eq!(checked(false, &[open]), Err("a piece does not close"));
             let mut film = body.clone();
             film.faces.extend([body.faces[0].clone(), body.faces[0].clone()]);
             film.faces[body.faces.len()].reversed = !body.faces[0].reversed;
-            assert_eq!(checked(&[film]), Err("a piece is so thin that it lies on itself"));
+            assert_eq!(checked(false, std::slice::from_ref(&film)), Err("a piece is so thin that it lies on itself"));
+            assert_eq!(checked(true, &[film]), whole);
         }
     }
 }

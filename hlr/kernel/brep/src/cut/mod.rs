@@ -85,9 +85,10 @@ fn try_cut(
     if body.solids == 0 && body.is_nested() {
         return Err("one body of its faces lies within another");
     }
-    let cut = cut_body(&body, plane, stopped);
+    let cut = cut_body(&body, plane, true, stopped);
     match through_a_corner(&body, plane) {
-        Some(moved) if cut.is_err() => cut_body(&body, &moved, stopped).or(cut),
+        // Beside a seam that is not quite in one plane, a film may be left.
+        Some(moved) if cut.is_err() => cut_body(&body, &moved, false, stopped).or(cut),
         _ => cut,
     }
 }
@@ -102,7 +103,8 @@ fn through_a_corner(body: &Body, plane: &Plane) -> Option<Plane> {
     (lowest != 0.0).then_some(Plane { level: plane.level + lowest, ..*plane })
 }
 
-fn cut_body(body: &Body, plane: &Plane, stopped: &(dyn Fn() -> bool + Sync)) -> Result<Cut, &'static str> {
+/// films: as of `check`.
+fn cut_body(body: &Body, plane: &Plane, films: bool, stopped: &(dyn Fn() -> bool + Sync)) -> Result<Cut, &'static str> {
     let deflection = COARSE * body.size();
     let watch = Watch { stopped, done: &AtomicUsize::new(0) };
     let cornered = with_corners(body, plane, CUT_BULGE * deflection);
@@ -119,7 +121,7 @@ fn cut_body(body: &Body, plane: &Plane, stopped: &(dyn Fn() -> bool + Sync)) -> 
         return Ok(Cut::Whole);
     }
     let Some(pieces) = assembled(&divided, plane)? else { return Ok(Cut::Gone) };
-    let checked = check(&divided, &pieces, plane, deflection, COARSE_ANGLE, &watch);
+    let checked = check(&divided, &pieces, plane, films, deflection, COARSE_ANGLE, &watch);
     if stopped() {
         return Ok(Cut::Stopped);
     }
