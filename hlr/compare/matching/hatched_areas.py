@@ -141,34 +141,34 @@ def _divided(
     if other is None or not len(some) or not (named or other.meets(np.concatenate([some.start, some.end]))):
         return some.take(slice(0)), some
     strokes = _Strokes.of(some)
-    looks = _looks(strokes, own, other, tolerance_mm)
-    silent = np.setdiff1d(np.arange(len(strokes.length)), looks.stroke)
+    samples = _samples(strokes, own, other, tolerance_mm)
+    silent = np.setdiff1d(np.arange(len(strokes.length)), samples.stroke)
     # A stroke that crosses no line lies inside where that can be.
     can = named | other.around(strokes.at(silent, np.full(len(silent), 0.5)))
-    inside = np.concatenate([strokes.intervals(looks.turned()), strokes.whole(silent[can])])
-    outside = np.concatenate([strokes.intervals(looks), strokes.whole(silent[~can])])
+    inside = np.concatenate([strokes.intervals(samples.turned()), strokes.whole(silent[can])])
+    outside = np.concatenate([strokes.intervals(samples), strokes.whole(silent[~can])])
     both, alone = (some.cut(each[np.argsort(each[:, 0], kind="stable")]) for each in (inside, outside))
     return both, alone
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Looks:
+class _Samples:
     """Places where strokes are looked at: the stroke, how far along it, 0 to 1, and whether the other is bare there."""
 
     stroke: Index
     share: Floats
     bare: Array
 
-    def turned(self) -> _Looks:
+    def turned(self) -> _Samples:
         """Those that are bare as those that are not."""
         return replace(self, bare=~self.bare)
 
     @staticmethod
-    def of(several: Sequence[_Looks]) -> _Looks:
+    def of(several: Sequence[_Samples]) -> _Samples:
         """All of them, stroke by stroke and along each."""
-        stroke, share, bare = (np.concatenate([getattr(each, f.name) for each in several]) for f in fields(_Looks))
+        stroke, share, bare = (np.concatenate([getattr(each, f.name) for each in several]) for f in fields(_Samples))
         order = np.lexsort((share, stroke))
-        return _Looks(stroke[order], share[order], bare[order])
+        return _Samples(stroke[order], share[order], bare[order])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -196,30 +196,30 @@ class _Strokes:
         """(n, 2) of these strokes from where to where they go, laid end to end."""
         return np.stack([self.place[which], self.place[which] + self.length[which]], axis=1)
 
-    def intervals(self, looks: _Looks) -> Floats:
+    def intervals(self, samples: _Samples) -> Floats:
         """(n, 2) what is bare of all, laid end to end: as far as half way to a place that is not."""
-        if not len(looks.stroke):
+        if not len(samples.stroke):
             return np.zeros((0, 2))
-        new = np.diff(looks.stroke, prepend=-1) > 0
-        half = 0.5 * (looks.share + np.append(0.0, looks.share[:-1]))
+        new = np.diff(samples.stroke, prepend=-1) > 0
+        half = 0.5 * (samples.share + np.append(0.0, samples.share[:-1]))
         low = np.where(new, 0.0, half)
         high = np.append(np.where(new, 1.0, half)[1:], 1.0)
-        first = looks.bare & (new | ~np.append(False, looks.bare[:-1]))
-        last = looks.bare & np.append(new[1:] | ~looks.bare[1:], True)
-        whose = looks.stroke[first]
+        first = samples.bare & (new | ~np.append(False, samples.bare[:-1]))
+        last = samples.bare & np.append(new[1:] | ~samples.bare[1:], True)
+        whose = samples.stroke[first]
         shares = np.stack([low[first], high[last]], axis=1)
         return np.asarray(self.place[whose][:, None] + self.length[whose][:, None] * shares)
 
 
-def _looks(strokes: _Strokes, own: _Own, other: HatchLines, tolerance_mm: float) -> _Looks:
+def _samples(strokes: _Strokes, own: _Own, other: HatchLines, tolerance_mm: float) -> _Samples:
     """Where strokes say whether the other hatch is there."""
     ways = strokes.end - strokes.start
     steep = np.abs(ways @ other.across) > _PARALLEL * strokes.length
     crossing = _where_they_cross(strokes, np.flatnonzero(steep), other, tolerance_mm)
-    return _Looks.of([crossing, _beside(strokes, np.flatnonzero(~steep), own, other, tolerance_mm)])
+    return _Samples.of([crossing, _beside(strokes, np.flatnonzero(~steep), own, other, tolerance_mm)])
 
 
-def _where_they_cross(strokes: _Strokes, which: Index, other: HatchLines, tolerance_mm: float) -> _Looks:
+def _where_they_cross(strokes: _Strokes, which: Index, other: HatchLines, tolerance_mm: float) -> _Samples:
     """Where some strokes cross the lines of the other hatch, but for their ends."""
     border = _BORDER * tolerance_mm
     begin, end = other.level(strokes.start[which]), other.level(strokes.end[which])
@@ -231,10 +231,10 @@ def _where_they_cross(strokes: _Strokes, which: Index, other: HatchLines, tolera
     length = strokes.length[which[whose]]
     within = np.minimum(share, 1.0 - share) * length >= border
     whose, line, share = which[whose[within]], line[within], share[within]
-    return _Looks(whose, share, ~other.drawn(line, strokes.at(whose, share), border))
+    return _Samples(whose, share, ~other.drawn(line, strokes.at(whose, share), border))
 
 
-def _beside(strokes: _Strokes, which: Index, own: _Own, other: HatchLines, tolerance_mm: float) -> _Looks:
+def _beside(strokes: _Strokes, which: Index, own: _Own, other: HatchLines, tolerance_mm: float) -> _Samples:
     """Strokes that are parallel to the other hatch: the lines of that on both sides of them say whether it is there.
 
     Where both are bare, that says something only if the strokes' own area reaches as far as one of them: its hatch has
@@ -257,7 +257,7 @@ def _beside(strokes: _Strokes, which: Index, own: _Own, other: HatchLines, toler
             looked = np.flatnonzero(bare & ~reaches)
             foot = points[looked] + ((line - level)[looked] * other.spacing)[:, None] * other.across
             reaches[looked] = _one_area(points[looked], foot, own.lines, own.edges, tolerance_mm)
-    return _Looks(whose, share, bare & reaches)
+    return _Samples(whose, share, bare & reaches)
 
 
 def _one_area(points: Floats, foot: Floats, lines: HatchLines, edges: Pieces, tolerance_mm: float) -> Array:

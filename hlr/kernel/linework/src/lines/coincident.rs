@@ -4,7 +4,7 @@
 //! the same direction. Ranks are a strict order, so of two lines exactly one is left out. Only drawn lines count as
 //! better: the best are decided first, so that a stack of close lines does not vanish as a whole. Lines of one
 //! visibility are close if they coincide; a hidden line also if it lies under the width of a visible line, and a shallow
-//! intersection line if it is as near to a line of its own parts (`whose`).
+//! intersection line if it is as near to a line of its own parts (`owners`).
 //!
 //! ```text
 //!   better  ===================
