@@ -1067,8 +1067,11 @@ class PartTables:
     def within(self, largest: float) -> bool:
         """Whether all coordinates are finite and nearer to the origin than this."""
 
-    def places_repeated(self) -> list[bool]:
-        """Whether each part is not joined and may hold two points in one place: yes where it does."""
+    def triangles_in_one_place(self) -> list[bool]:
+        """Whether each part is not joined and may hold two triangles, turned the same way, in one place.
+
+        Yes where it does.
+        """
 
     def facts(self) -> MeshFacts: ...
 

@@ -103,10 +103,7 @@ def _rescue(f: Facts, _o: Options) -> Answer:
 
 
 def _repair(f: Facts, _o: Options) -> Answer:
-    return (
-        f.repeated,
-        "triangles or points are there twice" if f.repeated else "no triangle and no point is there twice",
-    )
+    return f.repeated, "triangles are there twice" if f.repeated else "no triangle is there twice"
 
 
 def _stitching(f: Facts, _o: Options) -> Answer:

@@ -135,7 +135,7 @@ def _repaired(whole: PartMeshes, plan: Planner) -> tuple[PartMeshes, MeshFacts, 
     """The parts without duplicates, their edges, and the number of triangles left out of each."""
     mesh, doubled = _facts(whole), [0] * len(whole)
     with plan.deciding():
-        triangles, places = mesh.triangles_repeated(), whole.tables.places_repeated()
+        triangles, places = mesh.triangles_repeated(), whole.tables.triangles_in_one_place()
         some = [i for i, both in enumerate(zip(triangles, places, strict=True)) if True in both]
     begin = perf_counter()
     if plan.on("repair", Facts(repeated=bool(some))):

@@ -22,8 +22,8 @@ def without_duplicates(part: PartMesh, triangles: bool = True, places: bool = Tr
     """The part without repeated triangles and faces, and the numbers (n,) of the triangles that stay, ascending.
 
     One of each set of duplicates stays. Duplicates would make every edge between them non-manifold, or count as two
-    surfaces in contact. triangles: a triangle has the corners of another one; places: two points are in one place. A
-    caller that knows better says False, which saves the search.
+    surfaces in contact. triangles: a triangle may have the corners of another one; places: two triangles may lie in
+    one place. A caller that knows better says False, which saves the search.
     """
     staying: Indices = np.arange(len(part.triangles))
     if triangles:

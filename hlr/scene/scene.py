@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
+from hlr.common.distinct import distinct
 from hlr.common.types import Floats, Ints
 from hlr.drawing.notes import Note
 from hlr.scene.scene_parts import SceneParts
@@ -39,9 +40,10 @@ class TrueSurfaces:
     def of(self, wanted: npt.NDArray[np.bool_], face: Ints) -> _kernel.TrueSurfaces:
         """As the kernel takes them. wanted (f,) bool: faces whose surfaces are included; face (t,) of each triangle."""
         known = wanted & (self.number >= 0)
-        used, which = np.unique(self.number[known], return_inverse=True)
+        chosen = self.number[known]
+        used = distinct(chosen)
         number = np.full(len(known), -1, np.int32)
-        number[known] = which
+        number[known] = np.searchsorted(used, chosen)
         records = self.surfaces.records(used.tolist())
         return _kernel.TrueSurfaces(
             face,

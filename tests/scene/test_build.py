@@ -269,7 +269,7 @@ def test_a_repetition_is_noticed_wherever_it_is(again):
     mesh = box((10, 20, 30))
     plain, other = part_of((mesh.vertices, mesh.faces)), part_of((mesh.vertices + 50.0, mesh.faces))
     plain, other = replace(plain, joined=False), replace(other, joined=False)
-    assert combine_parts([plain, other, plain]).tables.places_repeated() == [False] * 3, (
+    assert combine_parts([plain, other, plain]).tables.triangles_in_one_place() == [False] * 3, (
         "equal parts are no repetition in any of them"
     )
     assert combine_parts([plain, other]).tables.facts().triangles_repeated() == [False] * 2
@@ -277,11 +277,17 @@ def test_a_repetition_is_noticed_wherever_it_is(again):
         triangles = np.concatenate([plain.triangles, corners[None].astype(np.int32)])
         twice = replace(plain, triangles=triangles, triangle_face=np.zeros(len(triangles), np.int32))
         assert combine_parts([other, twice, plain]).tables.facts().triangles_repeated() == [False, True, False]
-    where = again % len(plain.points)
-    points = np.concatenate([plain.points, plain.points[where : where + 1]])
-    assert combine_parts([other, replace(plain, points=points)]).tables.places_repeated() == [False, True]
-    joined = replace(plain, points=points, joined=True)
-    assert combine_parts([other, joined]).tables.places_repeated() == [False, False]
+    # A triangle with corners of its own in the places of another one's.
+    points, last = np.concatenate([plain.points, plain.points[plain.triangles[again]]]), len(plain.points)
+    for turns, there in (([0, 1, 2], True), ([1, 2, 0], True), ([2, 1, 0], False)):
+        own = (last + np.array(turns, np.int32))[None]
+        triangles = np.concatenate([plain.triangles, own]).astype(np.int32)
+        above = replace(plain, points=points, triangles=triangles, triangle_face=np.zeros(len(triangles), np.int32))
+        assert combine_parts([other, above]).tables.triangles_in_one_place() == [False, there]
+        joined = replace(above, joined=True)
+        assert combine_parts([other, joined]).tables.triangles_in_one_place() == [False, False]
+    alone = replace(plain, points=points)
+    assert combine_parts([other, alone]).tables.triangles_in_one_place() == [False, False], "points alone do not matter"
 
 
 @pytest.mark.parametrize("far", [(0, 0, 0), (30, -40, 50), (-12345678.9, 23456789.1, 9876543.2)])

@@ -139,7 +139,7 @@ fn lengths(offsets: &[i32]) -> impl Iterator<Item = i32> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tables::Placed;
+    use super::super::placed::Placed;
     use super::super::tables::tests::one;
     use super::*;
     use hlr_brep::format::IDENTITY;

@@ -1,8 +1,9 @@
 //! The meshes of all parts, one after another.
 
+use std::ops::Range;
+
 use hlr_brep::assemble::PartMesh;
-use hlr_brep::format::{IDENTITY, Matrix, moved};
-use rayon::prelude::*;
+use hlr_brep::format::{IDENTITY, Matrix};
 
 use super::clean::clean;
 
@@ -45,14 +46,6 @@ pub struct Tables {
 #[derive(Debug)]
 pub struct TooMany;
 
-/// The placement of a part, and its number among the parts of the tables.
-#[derive(Clone, Copy, Debug)]
-pub struct Placed {
-    pub part: usize,
-    pub transform: Matrix,
-    pub precision: f64,
-}
-
 impl Tables {
     pub fn len(&self) -> usize {
         self.brep.len()
@@ -62,7 +55,7 @@ impl Tables {
         self.brep.is_empty()
     }
 
-    fn open() -> Tables {
+    pub(super) fn open() -> Tables {
         let starts = || vec![0];
         Tables {
             point_start: starts(),
@@ -171,63 +164,6 @@ impl Tables {
         self.face_reversed.resize(self.face_planar.len(), false);
     }
 
-    /// Whether these are all parts as they are, each once and where it stands.
-    pub fn are_all(&self, parts: &[Placed]) -> bool {
-        let own = |(p, placed): (usize, &Placed)| {
-            let moved = placed.transform != IDENTITY || self.transform[p] != IDENTITY;
-            placed.part == p && !moved && placed.precision == self.precision[p]
-        };
-        parts.len() == self.len() && parts.iter().enumerate().all(own)
-    }
-
-    /// Returns these parts, each at its placement; triangles of mirrored ones are reversed.
-    pub fn placed(&self, parts: &[Placed]) -> Result<Tables, TooMany> {
-        let mut out = Tables::open();
-        for placed in parts {
-            out.add_placed(self, placed);
-            out.end()?;
-        }
-        Ok(out)
-    }
-
-    fn add_placed(&mut self, of: &Tables, &Placed { part, transform, precision }: &Placed) {
-        let range = |start: &[i32]| start[part] as usize..start[part + 1] as usize;
-        let (points, triangles) = (range(&of.point_start), range(&of.triangle_start));
-        let (faces, edges, nodes) = (range(&of.face_start), range(&of.edge_start), range(&of.node_start));
-        let point = self.points.len() as i32 - points.start as i32;
-        let node = self.uv.len() as i32 - nodes.start as i32;
-        let mirrored = mirrors(&transform);
-        let turned = |t: [i32; 3]| if mirrored { [t[0], t[2], t[1]] } else { t };
-        if transform == IDENTITY {
-            self.points.extend(&of.points[points]);
-        } else {
-            self.points.extend(of.points[points].iter().map(|p| moved(&transform, p)));
-        }
-        self.triangles.extend(of.triangles[triangles.clone()].iter().map(|t| turned(t.map(|v| v + point))));
-        let corner = |c: &[i32; 3]| turned(c.map(|i| if i < 0 { i } else { i + node }));
-        if !of.corner.is_empty() {
-            self.corner.extend(of.corner[triangles.clone()].iter().map(corner));
-        }
-        self.triangle_face.extend(&of.triangle_face[triangles.clone()]);
-        self.origin.extend(&of.origin[triangles]);
-        self.face_planar.extend(&of.face_planar[faces.clone()]);
-        self.face_shape.extend(&of.face_shape[faces.clone()]);
-        self.face_place.extend(&of.face_place[faces.clone()]);
-        self.face_reversed.extend(&of.face_reversed[faces]);
-        self.uv.extend(&of.uv[nodes]);
-        let offsets = &of.edge_offsets[edges.start..=edges.end];
-        let shift = self.edge_nodes.len() as i32 - offsets[0];
-        self.edge_offsets.extend(offsets[1..].iter().map(|o| o + shift));
-        let chain = offsets[0] as usize..offsets[offsets.len() - 1] as usize;
-        self.edge_nodes.extend(of.edge_nodes[chain].iter().map(|v| v + point));
-        self.edge_index.extend(&of.edge_index[edges.clone()]);
-        self.edge_class.extend(&of.edge_class[edges]);
-        self.brep.push(of.brep[part]);
-        self.joined.push(of.joined[part]);
-        self.transform.push(transform);
-        self.precision.push(precision);
-    }
-
     /// (t,) the part of each triangle.
     pub fn triangle_part(&self) -> Vec<i32> {
         per_item(&self.triangle_start)
@@ -238,38 +174,15 @@ impl Tables {
         self.triangle_start.partition_point(|&start| start <= triangle) - 1
     }
 
-    /// Per part, whether its points are not joined and two of them may be in one place; always true where they are.
-    ///
-    /// Each place is hashed to 64 bits, so that one sort of integers finds equal ones. Two different places have the
-    /// same hash with a chance of 2^-64, unless coordinates were made for it.
-    pub fn places_repeated(&self) -> Vec<bool> {
-        let repeats = |part: usize| {
-            if self.joined[part] {
-                return false;
-            }
-            let range = self.point_start[part] as usize..self.point_start[part + 1] as usize;
-            let mut places: Vec<u64> = self.points[range].iter().map(place).collect();
-            places.par_sort_unstable();
-            places.windows(2).any(|w| w[0] == w[1])
-        };
-        (0..self.len()).into_par_iter().map(repeats).collect()
-    }
-
     /// Whether all coordinates are finite and nearer to the origin than this.
     pub fn within(&self, largest: f64) -> bool {
         self.points.as_flattened().iter().all(|c| c.abs() < largest)
     }
 }
 
-/// A hash of all bits: G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
-/// Equal places have equal hashes, whatever the sign of their zeros.
-fn place(point: &[f64; 3]) -> u64 {
-    point.iter().fold(0, |sum: u64, c| {
-        let mut x = sum.wrapping_add((c + 0.0).to_bits()).wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        x ^ (x >> 31)
-    })
+/// The items of a part.
+pub(super) fn range(start: &[i32], part: usize) -> Range<usize> {
+    start[part] as usize..start[part + 1] as usize
 }
 
 /// Appends items; the first ones are not copied.
@@ -279,12 +192,6 @@ fn append<T>(all: &mut Vec<T>, items: Vec<T>) {
     } else {
         all.extend(items);
     }
-}
-
-fn mirrors(m: &Matrix) -> bool {
-    m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
-        + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
-        < 0.0
 }
 
 /// The owner of every item; `start`: the first item of each owner, then the number of items.
@@ -322,48 +229,11 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_mirrored_copy_is_turned_round() {
-        let mirror = [[-1.0, 0.0, 0.0, 5.0], IDENTITY[1], IDENTITY[2]];
-        let at = |transform| Placed { part: 0, transform, precision: 0.0 };
-        let found = one().placed(&[at(IDENTITY), at(mirror)]).unwrap();
-        assert_eq!((found.points[1], found.points[5]), ([1.0, 0.0, 0.0], [4.0, 0.0, 0.0]));
-        assert_eq!((found.triangles[1], found.triangles[5]), ([0, 1, 3], [4, 7, 5]));
-        assert_eq!((found.corner[1], found.corner[5]), ([3, 4, 5], [15, 17, 16]));
-        assert_eq!((found.edge_offsets, found.edge_nodes), (vec![0, 2, 4, 6, 8], vec![0, 1, 1, 2, 4, 5, 5, 6]));
-        assert_eq!(found.point_start, [0, 4, 8]);
-    }
-
-    #[test]
-    fn parts_that_stay_as_they_are_are_told_from_moved_ones() {
-        let place = [[1.0, 0.0, 0.0, 5.0], IDENTITY[1], IDENTITY[2]];
-        let at = |part, transform, precision| Placed { part, transform, precision };
-        let (alone, still) = (one(), at(0, IDENTITY, 0.0));
-        assert!(alone.are_all(&[still]));
-        for others in [vec![], vec![still, still], vec![at(0, place, 0.0)], vec![at(0, IDENTITY, 1e-3)]] {
-            assert!(!alone.are_all(&others), "{others:?}");
-        }
-        let two = alone.placed(&[still, still]).unwrap();
-        assert!(two.are_all(&[still, at(1, IDENTITY, 0.0)]) && !two.are_all(&[at(1, IDENTITY, 0.0), still]));
-        let moved = alone.placed(&[at(0, place, 0.0)]).unwrap();
-        assert!(!moved.are_all(&[still]) && !moved.are_all(&[at(0, place, 0.0)]));
-    }
-
-    #[test]
     fn a_part_of_points_alone_counts_before_another() {
         let wire = || PartMesh { points: vec![[9.0; 3]; 2], ..PartMesh::default() };
         let found = Tables::of_roots(vec![wire(), root()], &[true; 4]).unwrap();
         assert_eq!(found.triangles, one().triangles.iter().map(|t| t.map(|v| v + 2)).collect::<Vec<_>>());
         assert_eq!((&found.edge_nodes[..2], found.corner[0]), (&[2, 3][..], one().corner[0]));
-    }
-
-    #[test]
-    fn two_points_in_one_place_of_one_part() {
-        let mut found = one();
-        assert_eq!(found.places_repeated(), [false]);
-        found.points[3] = [-0.0, 1.0, 0.0];
-        assert_eq!(found.places_repeated(), [true]);
-        found.joined[0] = true;
-        assert_eq!(found.places_repeated(), [false]);
     }
 
     #[test]

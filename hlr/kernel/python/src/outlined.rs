@@ -10,6 +10,7 @@ use super::groups::Groups;
 use super::mesh_input::Mesh;
 use super::silhouette::Outlines;
 use super::stretches::Stretches;
+use super::threads::{CHEAP, run};
 use super::true_surfaces::TrueSurfaces;
 use super::view::{Flat, Rows, arrays, flat, rows};
 use super::walks::Walks;
@@ -121,6 +122,8 @@ pub fn outlined<'py>(
     };
     let classes = Classes { border, tangent, outline: kinds.2, interior: kinds.3 };
     let [spare, most, own] = lengths;
-    let found = add(&image, &classes, &outlines.lines, &outlines.grazing, &Lengths { spare, most, own });
+    let lengths = Lengths { spare, most, own };
+    let found =
+        run(py, all.triangles.len() / CHEAP, |_| add(&image, &classes, &outlines.lines, &outlines.grazing, &lengths))?;
     Ok(Outlined(found))
 }

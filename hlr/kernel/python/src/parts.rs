@@ -14,8 +14,9 @@ use super::threads::{AT_ONCE, CHEAP, release_later, run};
 use super::view::{Flat, Rows, arrays, flat, matrices, rows};
 use hlr_brep::format::Matrix;
 use hlr_mesh::facts::Facts;
+use hlr_mesh::placed::Placed;
 use hlr_mesh::repeats::Repeat;
-use hlr_mesh::tables::{Placed, Tables, TooMany};
+use hlr_mesh::tables::{Tables, TooMany};
 
 fn too_many(_: TooMany) -> PyErr {
     PyValueError::new_err("more than 2^31 items in one mesh")
@@ -181,7 +182,9 @@ arrays! { PartTables {
         if self.0.are_all(&placed) {
             return Ok(PartTables(self.0.clone()));
         }
-        let found = py.detach(|| self.0.placed(&placed)).map_err(too_many)?;
+        let start = &self.0.triangle_start;
+        let triangles: usize = part.iter().map(|&p| (start[p as usize + 1] - start[p as usize]) as usize).sum();
+        let found = run(py, triangles / CHEAP, |_| self.0.placed(&placed))?.map_err(too_many)?;
         Ok(PartTables(Arc::new(found)))
     }
 
@@ -241,9 +244,10 @@ arrays! { PartTables {
         self.0.within(largest)
     }
 
-    /// (p,) whether each part's points are not joined and two of them may be in one place; always true where they are.
-    fn places_repeated(&self, py: Python<'_>) -> PyResult<Vec<bool>> {
-        run(py, self.0.points.len() / CHEAP, |_| self.0.places_repeated())
+    /// (p,) whether each part's points are not joined and two of its triangles, turned the same way, may lie in one
+    /// place; always true where they do.
+    fn triangles_in_one_place(&self, py: Python<'_>) -> PyResult<Vec<bool>> {
+        run(py, self.0.points.len() / CHEAP, |_| self.0.triangles_in_one_place())
     }
 
     /// Edges, and the properties of the mesh that need no part or class of edge.

@@ -81,11 +81,18 @@ impl Outlined {
     /// The image as it is, without any outline, with room for so many more points and edges.
     pub(super) fn of(image: &Image, more_points: usize, more_edges: usize) -> Outlined {
         let (points, edges) = (image.points.len(), image.edges.len());
+        let ((ends, offsets), (at, lift)) = rayon::join(
+            || (roomy(image.edges.iter().copied(), more_edges), roomy(image.offsets.iter().copied(), more_edges)),
+            || {
+                let still = std::iter::repeat_n([0.0; 3], points);
+                (roomy(image.points.iter().copied(), more_points), roomy(still, more_points))
+            },
+        );
         Outlined {
-            points: roomy(image.points.iter().copied(), more_points),
-            lift: roomy(std::iter::repeat_n([0.0; 3], points), more_points),
-            edges: roomy(image.edges.iter().copied(), more_edges),
-            offsets: roomy(image.offsets.iter().copied(), more_edges),
+            points: at,
+            lift,
+            edges: ends,
+            offsets,
             part: roomy(image.part.iter().copied(), more_edges),
             group: roomy(image.group.iter().copied(), more_edges),
             kind: roomy(image.kind.iter().copied(), more_edges),

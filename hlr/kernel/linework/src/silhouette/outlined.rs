@@ -39,10 +39,10 @@ pub fn outlined(
     let traced: usize = lines.iter().map(|line| line.points.len()).sum();
     // A stretch of an edge, or of an outline, may need a line off its face and one in its place.
     let stretches = traced + grazing.len();
-    let mut out = Outlined::of(image, traced + 4 * stretches, traced + 2 * stretches);
-    let mut groups = vec![0; image.traced.len()];
-    // All triangles of a face are in one group.
-    image.triangle_face.iter().zip(image.triangle_group).for_each(|(&face, &group)| groups[face as usize] = group);
+    let (mut out, (groups, sheet)) = rayon::join(
+        || Outlined::of(image, traced + 4 * stretches, traced + 2 * stretches),
+        || (groups(image), own_lines::sheets(image, classes)),
+    );
     let mut beyond = Vec::new();
     for (number, line) in (0..).zip(lines) {
         let part = image.first.partition_point(|&first| first <= line.face) as i32 - 1;
@@ -83,9 +83,16 @@ pub fn outlined(
             dented: false,
             replaced: image.near[out.group[e] as usize],
         }));
-        own_lines::add(&mut out, image, classes, &stretches);
+        own_lines::add(&mut out, image, classes, sheet, &stretches);
     }
     out
+}
+
+/// Per face its group: all triangles of a face are in one.
+fn groups(image: &Image) -> Vec<i32> {
+    let mut groups = vec![0; image.traced.len()];
+    image.triangle_face.iter().zip(image.triangle_group).for_each(|(&face, &group)| groups[face as usize] = group);
+    groups
 }
 
 /// A border of a face that is seen nearly edge-on, as it is compared with that face.

@@ -3,6 +3,8 @@
 //! The visibility pass compares them polygon by polygon (`hlr_visibility::scan::own_faces`). Edges without triangles,
 //! which are added to the image and never drawn, give it their places.
 
+use rayon::slice::ParallelSliceMut;
+
 use super::image::{Classes, Edge, Image, Outlined};
 use hlr_brep::geometry::vector::Vector;
 use hlr_mesh::topology::components;
@@ -27,13 +29,13 @@ pub struct Stretch {
     pub replaced: bool,
 }
 
-/// Adds these stretches, sorted by edge, then by parameter; nothing where there are none.
-pub(super) fn add(out: &mut Outlined, image: &Image, classes: &Classes, all: &[Stretch]) {
+/// Adds these stretches, sorted by edge, then by parameter; nothing where there are none. `sheet`: those of `sheets`.
+pub(super) fn add(out: &mut Outlined, image: &Image, classes: &Classes, sheet: Vec<i32>, all: &[Stretch]) {
     if all.is_empty() {
         return;
     }
     let same = |a: &Stretch, b: &Stretch| a.edge == b.edge && a.range == b.range;
-    let mut own = Stretches { offsets: vec![0], sheet: sheets(image, classes), ..Stretches::NONE };
+    let mut own = Stretches { offsets: vec![0], sheet, ..Stretches::NONE };
     // Stretches that are not the whole edge get points of their own.
     for stretch in all.chunk_by(same) {
         let first = &stretch[0];
@@ -78,14 +80,14 @@ fn on_paper(out: &Outlined, image: &Image, stretch: &Stretch) -> [f64; 2] {
 }
 
 /// Per face a number, the same for all faces that join smoothly.
-fn sheets(image: &Image, classes: &Classes) -> Vec<i32> {
+pub(super) fn sheets(image: &Image, classes: &Classes) -> Vec<i32> {
     let around = |e: usize| &image.incident[image.offsets[e] as usize..image.offsets[e + 1] as usize];
     let tangent = (0..image.edges.len()).filter(|&e| classes.tangent[image.kind[e] as usize]);
     let mut pairs: Vec<[i32; 2]> = tangent
         .filter_map(|e| <[i32; 2]>::try_from(around(e)).ok())
         .map(|pair| pair.map(|t| image.triangle_face[t as usize]))
         .collect();
-    pairs.sort_unstable();
+    pairs.par_sort_unstable();
     pairs.dedup();
     let mut joined = vec![-1; image.traced.len()];
     for (pair, label) in pairs.iter().zip(components(&pairs, image.traced.len())) {
@@ -137,7 +139,8 @@ mod tests {
         let image = image(&kinds, perspective);
         let mut out = Outlined::of(&image, 0, 0);
         assert_eq!((out.points.len(), out.edges.len(), &out.curved[..]), (4, 1, &[true][..]));
-        add(&mut out, &image, &classes, stretches);
+        let sheet = sheets(&image, &classes);
+        add(&mut out, &image, &classes, sheet, stretches);
         out
     }
 
