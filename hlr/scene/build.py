@@ -14,13 +14,14 @@ from hlr.request.accuracy import REPEATED
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
-from hlr.scene.clash import find_clashes, self_intersecting_parts
+from hlr.scene.clash import Clashes, find_clashes, self_intersecting_parts
 from hlr.scene.creases import creases
 from hlr.scene.duplicates import without_duplicates
 from hlr.scene.intersection_lines import intersection_lines
 from hlr.scene.needles import reliable_normals
 from hlr.scene.repeats import Looks, without_repeats
 from hlr.scene.scene import Scene, TrueSurfaces
+from hlr.scene.scene_edges import SceneEdges
 from hlr.scene.scene_parts import OnCut, scene_parts
 from hlr.scene.spindle_tori import self_intersecting_tori
 from hlr.scene.stitching import stitch_borders
@@ -29,7 +30,7 @@ from hlr.source.bounds import LARGEST_COORDINATE
 from hlr.source.fewer_triangles import Fewer, with_fewer_triangles
 from hlr.source.model import Tessellation
 from hlr.source.part_meshes import PartMeshes, combine_parts
-from hlr.tables.line_classes import INTERIOR, EdgeClass
+from hlr.tables.line_classes import INTERIOR
 
 
 def build(
@@ -50,9 +51,9 @@ def build(
     whole, mesh, doubled = _repaired(whole, plan)
     whole, mesh = _stitched(whole, mesh, deflection, plan)
     found, tables = mesh.scene(), whole.tables
-    points, triangles, brep = tables.points, found.triangles, tables.brep
-    group_of, group_part, edge_part = found.triangle_group, found.group_part, found.edge_part
-    edges, offsets, edge_group, kind = mesh.edges, mesh.offsets, found.edge_group, found.edge_kind
+    points, brep = tables.points, tables.brep
+    edges, offsets, kind = mesh.edges, mesh.offsets, found.edge_kind
+    group_part, edge_part = found.group_part, found.edge_part
     groups = found.groups()
     walks, facets, drawn = found.walks(), None, None
     if tables.brep_parts < len(tables) and len(edges):
@@ -66,59 +67,38 @@ def build(
         kind = kind.copy()
         np.copyto(kind[: len(crease_kind)], crease_kind, where=crease_kind != INTERIOR)
         drawn = np.bincount(edge_part[crease_kind != INTERIOR], minlength=len(brep)).tolist()
-    with plan.deciding():
-        meeting = groups.meeting()
-    begin, met = perf_counter(), None
-    if plan.on("intersection search", Facts(meeting=meeting, folded=found.folded)):
-        met = find_clashes(found, groups, deflection)
-        met = replace(met, through=met.through | self_intersecting_tori(whole, found))
-    plan.spent("intersection search", perf_counter() - begin, clash_tests=0 if met is None else met.tests)
+    met = _searched(whole, found, groups, deflection, plan)
     true, intersections = _true_surfaces(whole, found), None
     crossed = set() if met is None else self_intersecting_parts(met, group_part)
-    parts = scene_parts(whole, doubled, found, mesh.offsets, drawn, crossed, meshed.surface_parts, on_cut).with_repeats(
-        repeats.of
-    )
-    groups = groups.unsound(found.welded if met is None else met.through | found.welded)
-
+    parts = scene_parts(whole, doubled, found, mesh.offsets, drawn, crossed, meshed.surface_parts, on_cut)
+    parts = parts.with_repeats(repeats.of)
+    sound = groups.unsound(found.welded if met is None else met.through | found.welded)
+    all_edges = SceneEdges(points, edges, edge_part, found.edge_group, kind, sound)
     if len(found.loose):
-        # Free edges: no triangles; in a group of their own per part.
-        vertex_part = np.repeat(np.arange(len(brep), dtype=np.int32), np.diff(tables.point_start))
-        owner = vertex_part[found.loose[:, 0]]
-        groups, own_group = groups.with_wires(points, found.loose, owner.astype(np.int64), False)
-        edges, edge_part = np.concatenate([edges, found.loose]), np.concatenate([edge_part, owner])
-        edge_group = np.concatenate([edge_group, own_group])
+        all_edges.add_free(found.loose, tables)
     if met is not None and len(met.edges):
-        lines = met.edges + np.int32(len(points))
-        points = np.concatenate([points, met.points])
-        along, intersections = intersection_lines(met, found, tables, true, len(edges), deflection)
+        along, intersections = intersection_lines(met, found, tables, true, len(all_edges.edges), deflection)
         walks = walks.merged(along)
-        pair = met.group[:, 0].astype(np.int64) << 32 | met.group[:, 1]
-        groups, own_group = groups.with_wires(points, lines, pair, True)
-        edges, edge_part = (
-            np.concatenate([edges, lines]),
-            np.concatenate([edge_part, group_part[met.group].min(axis=1)]),
-        )
-        edge_group = np.concatenate([edge_group, own_group])
-        kind = np.concatenate([kind, np.full(len(lines), EdgeClass.INTERSECTION, np.uint8)])
-    if len(points) == 0 or len(edges) == 0:
+        all_edges.add_intersections(met, group_part)
+    if len(points) == 0 or len(all_edges.edges) == 0:
         raise SourceError("nothing to draw: no part has a face or an edge")
-    added = len(edges) - len(found.edge_curved)
+    added = len(all_edges.edges) - len(found.edge_curved)
     return Scene(
-        points=points,
-        triangles=triangles,
+        points=all_edges.points,
+        triangles=found.triangles,
         triangle_part=found.triangle_part,
-        triangle_group=group_of,
+        triangle_group=found.triangle_group,
         triangle_face=tables.triangle_face,
         triangle_origin=tables.origin,
-        turned=np.zeros(len(triangles), bool) if found.turned is None else found.turned,
-        edges=np.ascontiguousarray(edges),
+        turned=np.zeros(len(found.triangles), bool) if found.turned is None else found.turned,
+        edges=np.ascontiguousarray(all_edges.edges),
         offsets=np.concatenate([offsets, np.full(added, offsets[-1], np.int32)]) if added else offsets,
         incident=mesh.incident,
-        edge_part=edge_part,
-        edge_group=np.ascontiguousarray(edge_group),
-        edge_kind=kind,
+        edge_part=all_edges.part,
+        edge_group=np.ascontiguousarray(all_edges.group),
+        edge_kind=all_edges.kind,
         edge_curved=np.concatenate([found.edge_curved, np.zeros(added, bool)]) if added else found.edge_curved,
-        groups=groups,
+        groups=all_edges.groups,
         walks=walks,
         has_faces=brep & (tables.face_start[1:] > tables.face_start[:-1]),
         parts=parts,
@@ -165,6 +145,18 @@ def _stitched(whole: PartMeshes, mesh: MeshFacts, deflection: float, plan: Plann
             mesh = _facts(whole)
     plan.spent("stitching of borders", perf_counter() - begin, seams=seams)
     return whole, mesh
+
+
+def _searched(whole: PartMeshes, found: MeshScene, groups: Groups, deflection: float, plan: Planner) -> Clashes | None:
+    """Where the meshes cross or touch; None where no two come near one another."""
+    with plan.deciding():
+        meeting = groups.meeting()
+    begin, met = perf_counter(), None
+    if plan.on("intersection search", Facts(meeting=meeting, folded=found.folded)):
+        met = find_clashes(found, groups, deflection)
+        met = replace(met, through=met.through | self_intersecting_tori(whole, found))
+    plan.spent("intersection search", perf_counter() - begin, clash_tests=0 if met is None else met.tests)
+    return met
 
 
 def _facts(whole: PartMeshes) -> MeshFacts:
