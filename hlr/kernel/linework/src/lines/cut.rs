@@ -8,8 +8,9 @@ use super::drawing::Kind;
 use super::ends::Ends;
 use super::geometry::Geometry;
 use super::meetings::Meetings;
-use super::owners::{Order, Owners, SHORT_PIECE_CLASS, short_pieces};
+use super::owners::{Order, Owners};
 use super::runs::{self, Limits};
+use super::short_pieces::short_pieces;
 use super::simplify::simplify;
 use super::specks::drop_specks;
 use super::{Polyline, View};
@@ -118,10 +119,10 @@ pub fn cut(
     Some(Cut { lines, smooth, meetings: met.moved() })
 }
 
-/// A strict order of lines: visible before hidden, then by rank / 8 (`short_pieces` come behind shallow intersections),
-/// then nearer first, then by rank, then by coordinates. Input order decides only between lines that are equal in every
-/// coordinate.
-pub fn ranked(lines: &[Polyline], traits: &[Trait], short_pieces: &[bool], view: &View, space: f64) -> Vec<u32> {
+/// A strict order of lines: visible before hidden, then by rank / 8, then nearer first, then by rank, then by coordinates.
+/// Input order decides only between lines that are equal in every coordinate. `short_pieces`: the line that each gives way
+/// to. It has the rank / 8 of that line, and comes behind all others of it.
+pub fn ranked(lines: &[Polyline], traits: &[Trait], short_pieces: &[Option<u32>], view: &View, space: f64) -> Vec<u32> {
     // Depths are rounded coarsely, so that rounding errors do not decide which of two lines at one depth is nearer.
     let grain = 1e-6 * space.max(f64::MIN_POSITIVE / 1e-6);
     let nearest: Vec<f64> = lines
@@ -130,7 +131,10 @@ pub fn ranked(lines: &[Polyline], traits: &[Trait], short_pieces: &[bool], view:
         .map(|depth| (depth / grain).round() + 0.0)
         .collect();
     let rank = |line: &Polyline| traits[line.chain as usize].rank;
-    let class = |i: u32| if short_pieces[i as usize] { SHORT_PIECE_CLASS } else { rank(&lines[i as usize]) >> 3 };
+    let class = |i: u32| {
+        let gives_way_to = short_pieces[i as usize];
+        (rank(&lines[gives_way_to.unwrap_or(i) as usize]) >> 3, gives_way_to.is_some())
+    };
     let mut order: Vec<u32> = (0..lines.len() as u32).collect();
     order.par_sort_by(|&i, &j| {
         let (a, b) = (&lines[i as usize], &lines[j as usize]);

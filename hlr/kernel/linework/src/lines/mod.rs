@@ -5,8 +5,8 @@
 //! 2. `runs`        along a chain (`geometry`) equal states join, doubtful and short runs are decided, and lines are cut
 //!    out; `loops` are cut off the contours of meshes
 //! 3. `coincident`  of lines that coincide on paper one is kept, visible before hidden; `gaps` cuts out the others,
-//!    `stretches` says what covers what, `whose` whose lines may be farther apart, `pairs` finds those beside one
-//!    another, `drawn` where there are very many, both in square `cells` of the paper
+//!    `stretches` says what covers what, `owners` whose lines may be farther apart, `short_pieces` which of those give
+//!    way, `pairs` finds those beside one another, `drawn` where there are very many, both in square `cells` of the paper
 //! 4. `specks`      figures shorter than the accuracy, with all they connect to, are dropped
 //! 5. `simplify`    vertices that the accuracy does not need are left out
 //!
@@ -33,6 +33,7 @@ mod members;
 pub mod owners;
 mod pairs;
 pub mod runs;
+pub mod short_pieces;
 pub mod simplify;
 pub mod specks;
 mod stretches;

@@ -8,13 +8,7 @@
 //!         |                They are further apart than lines that coincide, but not so far that both could be read.
 //! ```
 
-use super::Polyline;
 use super::candidates::About;
-use super::gaps::Widths;
-use hlr_accuracy::COVER_CROSSING;
-
-/// The rank / 8 of short pieces of sunk edges: behind shallow intersection lines, as smooth edges.
-pub const SHORT_PIECE_CLASS: u8 = 2;
 
 /// Whose a line is: its part, and of an intersection line the other one.
 #[derive(Clone, Copy, Debug)]
@@ -42,21 +36,11 @@ pub struct Order<'a> {
     pub owners: &'a [Owners],
 }
 
-/// Visible pieces of the edges of sunk parts that are too short to leave anything out of the intersection line beside
-/// them: what covers less of a line counts as crossing it. They are left out instead.
-pub fn short_pieces(lines: &[Polyline], owners: &[Owners], widths: Widths) -> Vec<bool> {
-    let mut sunk: Vec<i32> = owners.iter().filter(|of| of.shallow).flat_map(|of| of.parts).collect();
-    sunk.sort_unstable();
-    sunk.dedup();
-    let of_sunk = |of: &Owners| !of.shallow && sunk.binary_search(&of.parts[0]).is_ok();
-    let short = |line: &Polyline| line.visible && line.length() < COVER_CROSSING * widths.under;
-    lines.iter().zip(owners).map(|(line, of)| of_sunk(of) && short(line)).collect()
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::View;
     use super::super::coincident::uncovered;
+    use super::super::gaps::Widths;
+    use super::super::{Polyline, View};
     use super::*;
 
     const VIEW: View = View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
@@ -93,14 +77,5 @@ mod tests {
     fn lines_of_other_parts_and_deep_ones_are_both_drawn() {
         assert_eq!(left(STRANGER, SHALLOW), [[2.0, 6.0], [0.0, 10.0]]);
         assert_eq!(left(FOOT, DEEP), [[2.0, 6.0], [0.0, 10.0]]);
-    }
-
-    #[test]
-    fn short_visible_pieces_of_sunk_edges_give_way() {
-        let mut lines = vec![level(2.0, 2.5, 0.05), level(2.0, 2.7, 0.05), level(2.0, 2.5, 0.05), level(0.0, 0.5, 0.0)];
-        lines[2].visible = false;
-        assert_eq!(short_pieces(&lines, &[FOOT, FOOT, FOOT, SHALLOW], WIDTHS), [true, false, false, false]);
-        assert_eq!(short_pieces(&lines, &[STRANGER, FOOT, FOOT, SHALLOW], WIDTHS), [false; 4]);
-        assert_eq!(short_pieces(&lines, &[FOOT, FOOT, FOOT, DEEP], WIDTHS), [false; 4]);
     }
 }

@@ -63,7 +63,7 @@ pub(super) fn same_way(s: &Side, t: &Side) -> bool {
 ///   - - - - - |=======================|- - -    but not lines that continue beyond its end
 ///              ‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾
 /// ```
-fn covered(worse: &Side, better: &Side, width: f64, over: f64) -> Option<(f64, f64)> {
+pub(super) fn covered(worse: &Side, better: &Side, width: f64, over: f64) -> Option<(f64, f64)> {
     let (a, b, p, q) = (&worse.from, &worse.to, &better.from, &better.to);
     let (vx, vy) = (q[0] - p[0], q[1] - p[1]);
     let (ux, uy) = (b[0] - a[0], b[1] - a[1]);
