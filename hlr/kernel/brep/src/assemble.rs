@@ -139,6 +139,11 @@ fn part(model: &Model, meshed: &Tessellation, number: usize) -> PartMesh {
                     };
                     corners.of(edge as usize)[corner as usize]
                 }
+                // Its place comes from the first point with its number.
+                Node::Inside(_) => {
+                    corners.points.push([f64::NAN; 3]);
+                    corners.points.len() as u32 - 1
+                }
             })
             .collect();
         let first_uv = out.uv.len() as i32;

@@ -42,6 +42,7 @@ impl Border<'_> {
                 let first = found.next()?;
                 found.all(|other| other == first).then_some(first)
             }
+            (Node::Inside(_), _) | (_, Node::Inside(_)) => None,
         }
     }
 

@@ -2,6 +2,7 @@
 
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
+use super::cap;
 use super::chain::{NEAR, chained};
 use super::uses::{Run, run};
 use crate::edges::{Polyline, from_chord};
@@ -22,6 +23,8 @@ pub enum Node {
     Vertex(Vertex),
     /// Number of the edge, its location, number of the corner.
     Edge(u32, u32, u32),
+    /// A point of this face alone, on a seam that has no edge.
+    Inside(u32),
 }
 
 #[derive(Clone, Debug)]
@@ -94,6 +97,7 @@ pub fn border(model: &Model, face: &Face, polylines: &[Option<Polyline>], deflec
     let mut out = Border { loops, nodes: Vec::new(), chords: Vec::new(), off };
     let count = all().count();
     out.nodes.reserve(count);
+    let mut around: Vec<(usize, f64)> = Vec::new();
     let mut numbers: FxHashMap<Node, u32> = FxHashMap::with_capacity_and_hasher(count, FxBuildHasher);
     for runs in &wires {
         for order in chained(runs, extent, periods)? {
@@ -108,6 +112,9 @@ pub fn border(model: &Model, face: &Face, polylines: &[Option<Polyline>], deflec
                 // The run ends where the next edge begins; at a pole, that may be elsewhere in (u, v).
                 let (end, begin) = (at(run.uv[last], shift), at(runs[next].uv[0], next_shift));
                 let turns = if k + 1 < count { [0.0; 2] } else { whole_turns(end, begin, periods) };
+                if k + 1 == count && turns[0] != 0.0 && turns[1] == 0.0 {
+                    around.push((out.loops.loops.len(), turns[0]));
+                }
                 let joined = (0..2).all(|k| (end[k] - begin[k] - turns[k]).abs() <= NEAR * extent[k]);
                 for corner in 0..if joined { last } else { last + 1 } {
                     let node = node(run, corner, last);
@@ -123,6 +130,11 @@ pub fn border(model: &Model, face: &Face, polylines: &[Option<Polyline>], deflec
             out.loops.loops.push(points);
             out.chords.push(chords);
         }
+    }
+    if let &[(number, turn)] = &around[..] {
+        let Border { loops, nodes, chords, .. } = &mut out;
+        let limits = [face.tolerance, deflection];
+        cap::close(surface, turn, &mut loops.loops[number], &mut chords[number], nodes, limits);
     }
     together(&mut out.loops);
     unite(&mut out.loops, out.nodes.len(), extent);

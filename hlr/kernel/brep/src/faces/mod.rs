@@ -1,6 +1,7 @@
 //! The borders of faces, made from the polylines of their edges.
 
 mod border;
+mod cap;
 mod chain;
 mod invert;
 mod uses;
