@@ -12,6 +12,7 @@
 use rayon::prelude::*;
 
 use super::pierced::{Meeting, at_meeting};
+use super::places::Places;
 use super::plane::{length, minus, to_segment};
 use super::route::{Border, Change, Goal, Move, Route};
 use crate::lines::View;
@@ -156,22 +157,21 @@ fn changing(routes: &[Route]) -> Vec<[bool; 2]> {
 
 /// Visible borders of other chains near changes, as (change, line, segment).
 fn near(routes: &[Route], changes: &[Change], reach: f64) -> Vec<(usize, usize, usize)> {
+    let places = Places::of(changes.iter().map(|change| change.at).collect());
     let mut out: Vec<(usize, usize, usize)> = routes
         .par_iter()
         .enumerate()
         .filter(|(_, route)| route.visible && route.border != Border::None)
         .flat_map_iter(|(j, route)| {
+            let places = &places;
             route.flat.windows(2).enumerate().flat_map(move |(k, w)| {
-                let [low, high] = [f64::min, f64::max].map(|of| [of(w[0][0], w[1][0]), of(w[0][1], w[1][1])]);
-                let from = changes.partition_point(|c| c.at[0] < low[0] - reach);
-                let to = changes.partition_point(|c| c.at[0] <= high[0] + reach);
-                let near = move |Change { at, ends }: &Change| {
-                    at[1] >= low[1] - reach
-                        && at[1] <= high[1] + reach
-                        && routes[ends[0].0].chain != route.chain
-                        && to_segment(at, &w[0], &w[1]).0 <= reach
+                let low = [0, 1].map(|c| w[0][c].min(w[1][c]) - reach);
+                let high = [0, 1].map(|c| w[0][c].max(w[1][c]) + reach);
+                let near = move |&c: &usize| {
+                    let Change { at, ends } = &changes[c];
+                    routes[ends[0].0].chain != route.chain && to_segment(at, &w[0], &w[1]).0 <= reach
                 };
-                (from..to).filter(move |&c| near(&changes[c])).map(move |c| (c, j, k))
+                places.within([low, high]).into_iter().filter(near).map(move |c| (c, j, k))
             })
         })
         .collect();

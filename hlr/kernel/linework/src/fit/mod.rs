@@ -5,6 +5,7 @@
 //! 3. `junction`  ends where another line hides this one, moved to the crossing of the two curves
 //!    `smooth_joints`  ends where an outline goes on as another line, moved to where the two touch
 //!    `pierced`   ends where the line passes through a surface, moved to the end of the intersection line
+//!    `places`   which ends lie near a place
 //! 4. `straight`, `arc`, `bezier`, `cubic`  the first of these that is exact, or within its share of the accuracy
 //! 5. `shared_end`  ends of one edge's lines that met before meet again, to the last bit
 //!
@@ -20,6 +21,7 @@ pub mod junction;
 pub mod locate;
 pub mod pierced;
 pub mod placed;
+pub mod places;
 pub mod plane;
 pub mod project;
 pub mod route;

@@ -1,6 +1,7 @@
 //! Projects curves to paper: their formulas stay the same, with homogeneous plane vectors in place of vectors in space.
 //! Parallel and central projection differ only in the third coordinate, which is constant for parallel projection.
 
+use super::arc::grow;
 use super::plane::Vec2;
 use hlr_brep::geometry::curve::{Curve, Vec3};
 use hlr_brep::geometry::nurbs::{MOST_DEGREE, basis, find_span};
@@ -99,6 +100,23 @@ impl Paper {
         }
     }
 
+    /// A box that holds all of the curve; None where that would take a search.
+    pub fn bounds(&self) -> Option<[Vec2; 2]> {
+        match self {
+            Paper::Ellipse { p, a, b } if a[2] == 0.0 && b[2] == 0.0 => {
+                let reach = [0, 1].map(|k| ((a[k] * a[k] + b[k] * b[k]).sqrt() / p[2]).abs());
+                Some([-1.0, 1.0].map(|sign| [0, 1].map(|k| p[k] / p[2] + sign * reach[k])))
+            }
+            // Between poles, as long as no weight is negative.
+            Paper::Spline { poles, .. } if poles.iter().all(|pole| pole[2] > 0.0) => {
+                let mut out = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+                poles.iter().for_each(|pole| grow(&mut out, &[pole[0] / pole[2], pole[1] / pole[2]]));
+                Some(out)
+            }
+            _ => None,
+        }
+    }
+
     /// Parameters inside (a, b) where the tangent may jump.
     pub fn corners(&self, a: f64, b: f64) -> Vec<f64> {
         let Paper::Spline { degree, knots, .. } = self else { return Vec::new() };
@@ -131,4 +149,27 @@ fn on_spline<const N: usize>(degree: usize, knots: &[f64], poles: &[Vec3], t: f6
 fn plain(v: &Vec3, d: &Vec3) -> [Vec2; 2] {
     let (x, y) = (v[0] / v[2], v[1] / v[2]);
     [[x, y], [(d[0] - d[2] * x) / v[2], (d[1] - d[2] * y) / v[2]]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_stays_within_its_box_and_fills_that_of_an_ellipse() {
+        let (p, a, b) = ([3.0, -2.0, 2.0], [8.0, 1.0, 0.0], [-1.0, 5.0, 0.0]);
+        let poles = vec![[0.0, 0.0, 1.0], [2.0, 6.0, 2.0], [9.0, -3.0, 3.0], [4.0, 4.0, 1.0]];
+        let knots = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+        let spline = Paper::Spline { degree: 3, rational: true, knots, poles };
+        for (paper, end) in [(Paper::Ellipse { p, a, b }, std::f64::consts::TAU), (spline, 1.0)] {
+            let [low, high] = paper.bounds().expect("known without a search");
+            let mut seen = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+            (0..=1000).for_each(|k| grow(&mut seen, &paper.at(end * f64::from(k) / 1000.0)[0]));
+            for k in 0..2 {
+                assert!(low[k] <= seen[0][k] + 1e-12 && seen[1][k] <= high[k] + 1e-12);
+                assert!(end == 1.0 || (seen[0][k] - low[k] < 1e-4 && high[k] - seen[1][k] < 1e-4));
+            }
+        }
+        assert!(Paper::Line.bounds().is_none());
+    }
 }

@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::junction::touching;
+use super::places::{Places, around};
 use super::plane::{Vec2, dot, length, minus};
 use super::route::{Border, Goal, Move, Route};
 use crate::lines::View;
@@ -32,12 +33,26 @@ const ROUNDED_UP: f64 = 1.001;
 const SAME_PLACE: f64 = 1e-3;
 
 /// A visible end: its line, which end, its place, and the unit direction in which it points.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct End {
     line: usize,
     end: usize,
     at: Vec2,
     way: Vec2,
+}
+
+/// Where the curve of a line ends, beside the end of its polyline: the parameter, and the place and derivative there.
+struct Start {
+    t: f64,
+    on_paper: [Vec2; 2],
+}
+
+impl Start {
+    fn of(routes: &[Route], end: &End) -> Start {
+        let route = &routes[end.line];
+        let t = route.parameter(end.end * (route.flat.len() - 2), end.end as f64);
+        Start { t, on_paper: route.at(t) }
+    }
 }
 
 /// The visible ends that move to places of contact. `moved`: ends that were moved to where a line crosses, which stay.
@@ -48,20 +63,27 @@ pub fn smooth_joints(routes: &[Route], moved: &[Move], accuracy: f64, contact: f
     }
     let mut all = ends(routes);
     all.sort_by(|a, b| a.at[0].total_cmp(&b.at[0]));
-    let outlines: Vec<End> = all.iter().filter(|end| routes[end.line].border == Border::Outline).copied().collect();
+    let places = Places::of(all.iter().map(|end| end.at).collect());
+    let outlines = Outlines::of(routes, &all);
     let settled: FxHashSet<(usize, usize)> = moved.iter().map(|m| (m.line, m.end)).collect();
     let near = JUNCTION_TOUCH * accuracy;
     // Whether an end may move: no other meets it, and no line that crosses explains it.
     let is_free = |own: &End| {
-        let beside = within(&all, own.at[0], near).iter().any(|e| !same(e, own) && distance(e, own) <= near);
-        !beside && !settled.contains(&(own.line, own.end))
+        let meets = |k: usize| !same(&all[k], own) && distance(&all[k], own) <= near;
+        !settled.contains(&(own.line, own.end)) && !places.any(around(&own.at, near), meets)
     };
     let joint = |own: &End| -> Option<Vec<Move>> {
-        let facing = |o: &&End| dot(&own.way, &o.way) < -ON && distance(o, own) <= JOINT_REACH;
-        let asked = within(&outlines, own.at[0], JOINT_REACH).iter().filter(facing);
-        let found = asked.filter_map(|o| Some((o, contact_of(routes, own, o, accuracy, contact, view)?)));
-        let (outline, (_, [first, second])) = found.min_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
-        Some(if is_free(outline) { vec![first, second] } else { vec![first] })
+        let start = Start::of(routes, own);
+        let facing = |o: &End| dot(&own.way, &o.way) < -ON && distance(o, own) <= JOINT_REACH;
+        let curve = routes[own.line].curve.as_ref().and_then(|(placed, _)| placed.paper.bounds());
+        let ahead = outlines.ahead_of(own, &start, slack(accuracy), curve);
+        let asked = ahead.into_iter().map(|k| (k, &outlines.ends[k])).filter(|(_, (o, _))| facing(o));
+        let found = asked.filter_map(|(k, (o, from))| {
+            let (far, moves) = contact_of(routes, (own, &start), (o, from), accuracy, contact, view)?;
+            Some((far, k, moves))
+        });
+        let (_, k, [first, second]) = found.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
+        Some(if is_free(&outlines.ends[k].0) { vec![first, second] } else { vec![first] })
     };
     let asked = |own: &&End| {
         let line = &routes[own.line];
@@ -70,10 +92,78 @@ pub fn smooth_joints(routes: &[Route], moved: &[Move], accuracy: f64, contact: f
     all.par_iter().filter(asked).filter_map(joint).flatten_iter().collect()
 }
 
-/// Those of the ends (sorted by x) whose x is within `reach` of this one.
-fn within(all: &[End], x: f64, reach: f64) -> &[End] {
-    let from = all.partition_point(|e| e.at[0] < x - reach);
-    &all[from..from + all[from..].partition_point(|e| e.at[0] <= x + reach)]
+/// The visible ends of outlines, looked up by where their curves end.
+struct Outlines {
+    ends: Vec<(End, Start)>,
+    places: Places,
+    /// The numbers of the ends by the numbers of the places.
+    of_place: Vec<usize>,
+    /// How far from its end a curve ends, at most.
+    off: f64,
+}
+
+impl Outlines {
+    fn of(routes: &[Route], all: &[End]) -> Outlines {
+        let own = all.iter().filter(|end| routes[end.line].border == Border::Outline);
+        let ends: Vec<(End, Start)> = own.map(|end| (*end, Start::of(routes, end))).collect();
+        let place = |k: usize| ends[k].1.on_paper[0];
+        let mut of_place: Vec<usize> = (0..ends.len()).collect();
+        of_place.sort_by(|&a, &b| place(a)[0].total_cmp(&place(b)[0]));
+        let places = Places::of(of_place.iter().map(|&k| place(k)).collect());
+        let off = ends.iter().map(|(end, start)| off(end, start)).filter(|off| off.is_finite()).fold(0.0, f64::max);
+        Outlines { ends, places, of_place, off }
+    }
+
+    /// Those that may lie straight ahead of an end, as `is_ahead` says, within the reach of joints.
+    ///
+    /// ```text
+    ///              .----------------------.
+    ///     ---------|x                     |      x: where the curve ends. What is ahead lies in a wedge, a little
+    ///              '----------------------'      farther back and to the sides: in this rectangle
+    /// ```
+    /// Both meet where the curve of the end is, and the outline's end is not far from there. curve: the box of that one.
+    fn ahead_of(&self, own: &End, start: &Start, slack: f64, curve: Option<[Vec2; 2]>) -> Vec<usize> {
+        // Those close by lie within twice the slack.
+        let close = 3.0 * slack;
+        let reach = (ROUNDED_UP * (JOINT_REACH + self.off + off(own, start))).max(close);
+        if !reach.is_finite() {
+            return Vec::new();
+        }
+        let onward = (STRAIGHT_ON * (reach - slack) - slack).max(0.0);
+        let aside = (ROUNDED_UP * (reach * reach - onward * onward).sqrt()).max(close);
+        let mut corners = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        for (along, across) in [(-close, aside), (-close, -aside), (reach, aside), (reach, -aside)] {
+            let [x, y] = own.way;
+            let corner = [along * x - across * y, along * y + across * x];
+            for k in 0..2 {
+                corners[0][k] = corners[0][k].min(start.on_paper[0][k] + corner[k]);
+                corners[1][k] = corners[1][k].max(start.on_paper[0][k] + corner[k]);
+            }
+        }
+        if let Some([low, high]) = curve {
+            for k in 0..2 {
+                corners[0][k] = corners[0][k].max(low[k] - close);
+                corners[1][k] = corners[1][k].min(high[k] + close);
+            }
+        }
+        self.places.within(corners).into_iter().map(|place| self.of_place[place]).collect()
+    }
+}
+
+/// How far from the end of a line its curve ends.
+fn off(end: &End, start: &Start) -> f64 {
+    length(&minus(&end.at, &start.on_paper[0]))
+}
+
+/// How far a place of contact lies from the two ends at most, besides the way ahead: of an outline it is near the end.
+fn slack(accuracy: f64) -> f64 {
+    (JUNCTION_OUTLINE + JUNCTION_TOUCH) * accuracy * ROUNDED_UP
+}
+
+/// Whether a place is so near, or so far straight ahead, that a place of contact beside it may be.
+fn is_ahead(ahead: &Vec2, way: &Vec2, accuracy: f64) -> bool {
+    let (far, slack) = (length(ahead), slack(accuracy));
+    far - slack <= JUNCTION_OUTLINE * accuracy || dot(ahead, way) + slack >= STRAIGHT_ON * (far - slack)
 }
 
 fn same(a: &End, b: &End) -> bool {
@@ -139,37 +229,32 @@ pub fn swallowed(routes: &mut [Route], all: &[Grown]) -> Vec<bool> {
 /// How far the end of `own` moves, and how both ends move to their place of contact, if there is one.
 fn contact_of(
     routes: &[Route],
-    own: &End,
-    outline: &End,
+    (own, Start { t: start, on_paper: [before, a] }): (&End, &Start),
+    (outline, Start { t: from, on_paper: [after, b] }): (&End, &Start),
     accuracy: f64,
     contact: f64,
     view: &View,
 ) -> Option<(f64, [Move; 2])> {
-    let (line, other) = (&routes[own.line], &routes[outline.line]);
-    let last = |end: &End, route: &Route| route.parameter(end.end * (route.flat.len() - 2), end.end as f64);
-    let (start, from) = (last(own, line), last(outline, other));
-    let ([before, a], [after, b]) = (line.at(start), other.at(from));
-    if (a[0] * b[1] - a[1] * b[0]).abs() <= ALONG * length(&a) * length(&b) {
+    let (line, other, start, from) = (&routes[own.line], &routes[outline.line], *start, *from);
+    if (a[0] * b[1] - a[1] * b[0]).abs() <= ALONG * length(a) * length(b) {
         return None;
     }
     // The place is so near the outline's end that most others are told by where that end is: no search for them.
-    let near = |far: f64| far <= JUNCTION_OUTLINE * accuracy;
-    let ahead = minus(&after, &before);
-    let slack = (JUNCTION_OUTLINE + JUNCTION_TOUCH) * accuracy * ROUNDED_UP;
-    if !near(length(&ahead) - slack) && dot(&ahead, &own.way) + slack < STRAIGHT_ON * (length(&ahead) - slack) {
+    if !is_ahead(&minus(after, before), &own.way, accuracy) {
         return None;
     }
+    let near = |far: f64| far <= JUNCTION_OUTLINE * accuracy;
     let (t, u) = touching(line, other, (start, from), JOINT_REACH, accuracy)?;
     let (t, u) = (line.ending(t, start)?, other.ending(u, from)?);
     let place = line.at(t)[0];
     let (there, space) = (other.at(u)[0], other.in_space(u, view));
     let deep = view.depth(&line.in_space(t, view)) - view.depth(&space);
-    let way = minus(&place, &before);
+    let way = minus(&place, before);
     let far = length(&way);
     // A long way goes nearly straight on.
     let onward = near(far) || dot(&way, &own.way) >= STRAIGHT_ON * far;
     let met = length(&minus(&place, &there)) <= JUNCTION_TOUCH * accuracy
-        && near(length(&minus(&there, &after)))
+        && near(length(&minus(&there, after)))
         && deep.abs() <= contact
         && onward
         && far <= JOINT_REACH;
@@ -239,5 +324,54 @@ mod tests {
         let before = deep.map(|line| line.map(|[x, y, _]| [x, y, if x == RADIUS { 9.0 } else { 0.0 }]));
         let apart = routes(&rim, &flat, &before, &ts);
         assert!(smooth_joints(&apart, &[], ACCURACY, 0.1, &view).is_empty());
+    }
+
+    #[test]
+    fn every_outline_ahead_of_an_end_is_found() {
+        // Short outlines in all directions, scattered by a congruential generator.
+        let mut state = 5u32;
+        let mut next = |size: f64| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            size * f64::from(state >> 8) / f64::from(1 << 24)
+        };
+        let flat: Vec<[Vec2; 2]> = (0..800)
+            .map(|_| {
+                let (at, turn) = ([next(60.0), next(50.0)], next(std::f64::consts::TAU));
+                [at, [at[0] + turn.cos(), at[1] + turn.sin()]]
+            })
+            .collect();
+        let deep: Vec<[Vec3; 2]> = flat.iter().map(|line| line.map(|[x, y]| [x, y, 0.0])).collect();
+        let routes: Vec<Route> = (0..flat.len())
+            .map(|k| Route {
+                chain: k as i32,
+                visible: true,
+                left_out: [false; 2],
+                border: Border::Outline,
+                flat: &flat[k],
+                space: &deep[k],
+                curve: None,
+                bulge: 0.0,
+            })
+            .collect();
+        let all = ends(&routes);
+        let outlines = Outlines::of(&routes, &all);
+        let (mut wanted, mut looked_at) = (0, 0);
+        for own in &all {
+            let start = Start::of(&routes, own);
+            let found = outlines.ahead_of(own, &start, slack(ACCURACY), None);
+            looked_at += found.len();
+            for (k, (outline, from)) in outlines.ends.iter().enumerate() {
+                let ahead = minus(&from.on_paper[0], &start.on_paper[0]);
+                if distance(own, outline) <= JOINT_REACH && is_ahead(&ahead, &own.way, ACCURACY) {
+                    wanted += 1;
+                    assert!(found.contains(&k), "{own:?} {outline:?}");
+                }
+            }
+            let near = [own.at.map(|c| c - 2.0), own.at.map(|c| c + 2.0)];
+            let found = outlines.ahead_of(own, &start, slack(ACCURACY), Some(near));
+            let beside = |k: &usize| (0..2).all(|c| (outlines.ends[*k].0.at[c] - own.at[c]).abs() < 2.5);
+            assert!(found.iter().all(beside), "no farther away than where the curve is");
+        }
+        assert!(wanted > 10_000 && looked_at < all.len() * all.len() / 4, "{wanted} {looked_at}");
     }
 }

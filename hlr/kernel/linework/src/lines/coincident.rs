@@ -16,6 +16,7 @@ use rayon::prelude::*;
 use super::drawn::Drawn;
 pub use super::gaps::Widths;
 use super::gaps::{Covered, Side, along, at, gaps, rest, still_there};
+use super::members::Member;
 use super::owners::Order;
 use super::pairs::{Pair, pairs};
 use super::stretches::{Stretches, same_way};
@@ -109,13 +110,16 @@ impl Cutting<'_> {
     fn by_drawn(&self) -> Vec<Vec<Covered>> {
         let mut gone = vec![Vec::new(); self.lines.len()];
         let Some(mut drawn) = Drawn::none_of(self.sides, self.stretches.reach) else { return gone };
+        let gaps = drawn.gaps(self.stretches.widths);
         let mut covered = Vec::new();
         for i in self.order() {
             covered.clear();
             let mut around = vec![];
             for side in (self.first_side[i] as u32)..self.first_side[i + 1] as u32 {
                 let first = covered.len();
-                drawn.each_near(side, |by| {
+                let member = drawn.member(side);
+                let may_cover = |by: &Member| by.may_cover(&member, &gaps);
+                drawn.each_near(side, may_cover, |by| {
                     let own = self.stretches.order(self.sides, side, by) == Some((side, by));
                     let [worse, better] = [side, by].map(|s| &self.sides[s as usize]);
                     if own && let Some((from, to)) = self.stretches.covered(worse, better) {

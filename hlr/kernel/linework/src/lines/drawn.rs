@@ -1,12 +1,13 @@
 //! The sides of lines that are drawn so far, in square cells of the paper.
 
 use super::cells::Cells;
-use super::gaps::Side;
+use super::gaps::{Side, Widths};
+use super::members::{Gaps, Member};
 
 pub(super) struct Drawn<'a> {
     sides: &'a [Side],
     cells: Cells,
-    members: Vec<Vec<u32>>,
+    members: Vec<Vec<Member>>,
     /// How far beside a side is looked, mm.
     reach: f64,
     /// The last side that each side was near to.
@@ -21,23 +22,33 @@ impl<'a> Drawn<'a> {
         Some(Drawn { sides, cells, members, reach, met })
     }
 
+    /// How near the boxes of sides come where the one may cover the other.
+    pub(super) fn gaps(&self, widths: Widths) -> Gaps {
+        Gaps::of(&self.cells, widths)
+    }
+
+    pub(super) fn member(&self, side: u32) -> Member {
+        Member::of(side, &self.sides[side as usize], &self.cells.low)
+    }
+
     pub(super) fn add(&mut self, side: u32) {
+        let member = self.member(side);
         self.each(side, 0.0, |members| {
-            if members.last() != Some(&side) {
-                members.push(side);
+            if members.last().is_none_or(|last| last.side != side) {
+                members.push(member);
             }
         });
     }
 
     pub(super) fn remove(&mut self, side: u32) {
-        self.each(side, 0.0, |members| members.retain(|&s| s != side));
+        self.each(side, 0.0, |members| members.retain(|member| member.side != side));
     }
 
-    /// Calls `visit` with each drawn side that may come within reach of a side.
-    pub(super) fn each_near(&mut self, side: u32, mut visit: impl FnMut(u32)) {
+    /// Calls `visit` with each drawn side that may come within reach of a side, of those that are `asked` for.
+    pub(super) fn each_near(&mut self, side: u32, asked: impl Fn(&Member) -> bool, mut visit: impl FnMut(u32)) {
         let mut met = std::mem::take(&mut self.met);
         self.each(side, self.reach, |members| {
-            for &other in members.iter() {
+            for other in members.iter().filter(|member| asked(member)).map(|member| member.side) {
                 if met[other as usize] != side {
                     met[other as usize] = side;
                     visit(other);
@@ -48,7 +59,7 @@ impl<'a> Drawn<'a> {
     }
 
     /// Calls `visit` with the members of the cells that a side comes as near to as `reach`, maybe more than once.
-    fn each(&mut self, side: u32, reach: f64, mut visit: impl FnMut(&mut Vec<u32>)) {
+    fn each(&mut self, side: u32, reach: f64, mut visit: impl FnMut(&mut Vec<Member>)) {
         let (cells, members) = (&self.cells, &mut self.members);
         cells.each(&self.sides[side as usize], reach, |column, row| visit(&mut members[row * cells.columns + column]));
     }
@@ -93,7 +104,7 @@ mod tests {
         (0..200).step_by(5).for_each(|side| drawn.remove(side));
         let mut near = |side: u32| {
             let mut found = Vec::new();
-            drawn.each_near(side, |other| found.push(other));
+            drawn.each_near(side, |_| true, |other| found.push(other));
             found.sort_unstable();
             found
         };

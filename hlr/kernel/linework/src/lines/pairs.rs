@@ -28,6 +28,9 @@ const MOST_TESTS: usize = 512;
 const MOST_FOUND: usize = 16;
 /// Fewer stretches than this are never too many.
 const FEW: usize = 1 << 12;
+/// One of so many runs of cells is looked through first: where these have more than their share of the stretches, there
+/// will be too many in all.
+const SAMPLE: usize = 16;
 /// Sides for each band of rows.
 const IN_A_BAND: usize = 1 << 11;
 /// Cells of a band whose sides are compared on one thread.
@@ -70,15 +73,22 @@ pub(super) fn pairs(sides: &[Side], stretches: &Stretches) -> Option<Vec<Pair>> 
         pairs
     };
     // Bands have as many sides on average, but one may be much fuller than the others.
-    let mut all: Vec<Pair> = filled
-        .par_iter()
+    let runs: Vec<(&Band, &[u32])> = filled
+        .iter()
         .flat_map(|band| {
-            let cells = (0..band.offsets.len() - 1).into_par_iter().step_by(CELLS);
-            cells.flat_map_iter(|first| {
-                of_cells(band, &band.offsets[first..(first + CELLS + 1).min(band.offsets.len())])
-            })
+            let first = (0..band.offsets.len() - 1).step_by(CELLS);
+            first.map(move |first| (band, &band.offsets[first..(first + CELLS + 1).min(band.offsets.len())]))
         })
         .collect();
+    let of_runs = |sample: bool| -> Vec<Pair> {
+        let chosen = runs.par_iter().enumerate().filter(|(k, _)| (k % SAMPLE == 0) == sample);
+        chosen.flat_map_iter(|(_, (band, cells))| of_cells(band, cells)).collect()
+    };
+    let mut all = of_runs(true);
+    if all.len() > FEW && all.len() > most_found / SAMPLE {
+        return None;
+    }
+    all.append(&mut of_runs(false));
     if found.into_inner() > most_found {
         return None;
     }
