@@ -16,28 +16,42 @@ pub struct Repeat {
     pub apart: f64,
 }
 
-/// Where parts are looked for: those with as many points, triangles and edges, by the place of their first point.
-type Key = ([usize; 3], [i64; 3]);
+/// Where parts are looked for: those with as many points, triangles and edges, by their marks.
+type Key = ([usize; 3], [i64; MARKS]);
+
+/// Numbers that tell where a part is, and how large.
+const MARKS: usize = 4;
+
+/// More than marks are off by rounding, as a share of the largest coordinate.
+const ROUNDED: f64 = 1e-10;
+
+/// How far parameters of equal surfaces may differ, as a share of the largest.
+const ROUNDED_PARAMETER: f64 = 1e-9;
 
 impl Tables {
     /// The parts that have the mesh of an earlier one, with no point farther away than `near`, ascending.
     ///
     /// The earlier one repeats no other: distances do not add up along a row of parts.
     pub fn repeats(&self, near: f64) -> Vec<Repeat> {
+        let counts = |part: usize| self.rows(part).map(|rows| rows.len());
+        let mut alike: HashMap<[usize; 3], usize> = HashMap::new();
+        (0..self.len()).for_each(|part| *alike.entry(counts(part)).or_default() += 1);
+        let largest = self.points.iter().flatten().fold(0.0, |most: f64, c| most.max(c.abs()));
+        let width = 2.0 * (near + ROUNDED * largest);
         let mut firsts: HashMap<Key, Vec<usize>> = HashMap::new();
         let mut out = Vec::new();
         for part in 0..self.len() {
-            let [points, triangles, edges] = self.rows(part);
-            if triangles.is_empty() {
+            let [points, triangles, _] = self.rows(part);
+            let counts = counts(part);
+            if triangles.is_empty() || alike[&counts] < 2 {
                 continue;
             }
-            let counts = [points.len(), triangles.len(), edges.len()];
-            // Of cells twice as wide as `near`, a point less far away lies in this one, or beside it on the nearer side.
-            let at = self.points[points.start].map(|c| c / (2.0 * near));
+            // Of cells twice as wide as `near`, a mark less far away lies in this one, or beside it on the nearer side.
+            let at = marks(&self.points[points]).map(|c| c / width);
             let cell = at.map(|c| c.floor() as i64);
             let side = at.map(|c| if c - c.floor() < 0.5 { -1 } else { 1 });
             let step = |corner: usize, k: usize| if corner >> k & 1 == 1 { side[k] } else { 0 };
-            let beside = (0..8).map(|corner| [0, 1, 2].map(|k| cell[k].saturating_add(step(corner, k))));
+            let beside = (0..1 << MARKS).map(|corner| std::array::from_fn(|k| cell[k].saturating_add(step(corner, k))));
             let earlier = beside.filter_map(|cell| firsts.get(&(counts, cell))).flatten();
             let repeated = |&first: &usize| self.apart([first, part], near).map(|apart| (first, apart));
             match earlier.filter_map(repeated).min_by_key(|&(first, _)| first) {
@@ -117,7 +131,7 @@ impl Tables {
             && self.edge_class[e.clone()] == self.edge_class[f.clone()]
             && self.triangle_face[t.clone()] == self.triangle_face[u.clone()]
             && self.origin[t.clone()] == self.origin[u.clone()]
-            && self.uv[i] == self.uv[j]
+            && same_parameters(&self.uv[i], &self.uv[j])
             && self.triangles[t.clone()]
                 .iter()
                 .map(|t| t.map(|v| v + point))
@@ -127,6 +141,31 @@ impl Tables {
             && self.edge_nodes[m].iter().map(|v| v + point).eq(self.edge_nodes[n].iter().copied());
         same.then_some(apart)
     }
+}
+
+/// Whether the parameters of two parts are equal but for rounding: of equal bodies modelled at two places, few are equal to
+/// the last bit.
+fn same_parameters(one: &[[f64; 2]], other: &[[f64; 2]]) -> bool {
+    let largest = one.iter().flatten().fold(0.0, |most: f64, c| most.max(c.abs()));
+    let near = |(a, b): (&f64, &f64)| a == b || (a - b).abs() <= ROUNDED_PARAMETER * largest;
+    one.len() == other.len() && one.iter().flatten().zip(other.iter().flatten()).all(near)
+}
+
+/// The marks of a part with these points. Where no point is farther than some distance from its copy, no mark is.
+///
+/// The middle between the first point and the mean of all, and half their mean distance from the first. Sizes of one
+/// design may share their first point, or their middle, but hardly all of that.
+fn marks(points: &[[f64; 3]]) -> [f64; MARKS] {
+    let Some(first) = points.first() else { return [0.0; MARKS] };
+    let (mut sum, mut away) = ([0.0; 3], 0.0);
+    for p in points {
+        let from = [0, 1, 2].map(|k| p[k] - first[k]);
+        away += from.iter().map(|c| c * c).sum::<f64>().sqrt();
+        (0..3).for_each(|k| sum[k] += from[k]);
+    }
+    let half = 0.5 / points.len() as f64;
+    let [x, y, z] = [0, 1, 2].map(|k| first[k] + half * sum[k]);
+    [x, y, z, half * away]
 }
 
 fn range(start: &[i32], part: usize) -> Range<usize> {
@@ -164,6 +203,58 @@ mod tests {
         let of: Vec<[i32; 2]> = found.iter().map(|repeat| [repeat.part, repeat.of]).collect();
         assert_eq!(of, [[1, 0], [3, 2], [4, 0]]);
         assert!(found.iter().all(|repeat| (repeat.apart - 0.9).abs() < 1e-12));
+    }
+
+    #[test]
+    fn parameters_that_differ_by_rounding_are_the_same() {
+        let mut two = row(&one(), &[0.0, 0.0]);
+        two.uv.fill([2.0, 3.0]);
+        let last = two.uv.len() - 1;
+        two.uv[last][0] += 1e-13;
+        assert_eq!(two.repeats(0.05).len(), 1);
+        two.uv[last][0] += 1e-6;
+        assert_eq!(two.repeats(0.05), []);
+    }
+
+    /// Bodies of as many points, of different sizes, that share their first point or their middle.
+    fn sizes(middle: bool, count: usize) -> Tables {
+        let mut tables = row(&one(), &vec![0.0; count]);
+        for part in 0..count {
+            let [points, ..] = tables.rows(part);
+            let own = &mut tables.points[points];
+            let mean = [0, 1, 2].map(|k| own.iter().map(|p| p[k]).sum::<f64>() / own.len() as f64);
+            let fixed = if middle { mean } else { own[0] };
+            let size = 1.0 + 0.1 * part as f64;
+            own.iter_mut().for_each(|p| *p = [0, 1, 2].map(|k| fixed[k] + size * (p[k] - fixed[k])));
+        }
+        tables
+    }
+
+    #[test]
+    fn sizes_of_one_design_have_marks_of_their_own() {
+        for middle in [false, true] {
+            let tables = sizes(middle, 1000);
+            let mut cells: Vec<[i64; MARKS]> = (0..1000)
+                .map(|part| marks(&tables.points[tables.rows(part)[0].clone()]).map(|c| (c / 0.002).floor() as i64))
+                .collect();
+            cells.sort_unstable();
+            cells.dedup();
+            assert_eq!(cells.len(), 1000, "{middle}");
+            assert_eq!(tables.repeats(1e-3), []);
+        }
+    }
+
+    #[test]
+    fn marks_are_no_farther_apart_than_points() {
+        let points: Vec<[f64; 3]> = (0..60).map(|k| [0, 1, 2].map(|c| f64::from((7 * k + 13 * c) % 31))).collect();
+        for turn in 0..8 {
+            let off = |k: usize, c: usize| [-0.5, 0.5][(k >> turn ^ turn >> c) & 1];
+            let moved: Vec<[f64; 3]> =
+                points.iter().enumerate().map(|(k, p)| [0, 1, 2].map(|c| p[c] + off(k, c))).collect();
+            let apart = 0.75f64.sqrt() + 1e-12;
+            let pairs = marks(&points).into_iter().zip(marks(&moved));
+            pairs.for_each(|(a, b)| assert!((a - b).abs() <= apart, "{turn}: {a} {b}"));
+        }
     }
 
     #[test]
