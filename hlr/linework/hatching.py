@@ -28,8 +28,15 @@ LEAST_A_SIDE = 3.0
 PAPER_SHARE = 70.0
 """The shorter side of the paper over this is the widest spacing."""
 
-CANDIDATES = (*((angle, steps) for steps in (0, -1, -2, 2) for angle in (45.0, 135.0)), (30.0, 0), (120.0, 0))
-"""Degrees, and by how many steps of SPACINGS the usual spacing is changed, the better ones first."""
+CANDIDATES = (
+    *((angle, steps) for steps in (0, -1, -2, 2) for angle in (45.0, 135.0)),
+    *((angle, steps) for steps in (0, -2, 2) for angle in (30.0, 120.0, 60.0, 150.0)),
+    *((angle, steps) for steps in (4, -4) for angle in (45.0, 135.0, 30.0, 120.0, 60.0, 150.0)),
+)
+"""Degrees, and by how many steps of SPACINGS the usual spacing is changed, the better ones first.
+
+At the end of SPACINGS some of them are equal. At least 18 others are left, wherever the usual spacing is.
+"""
 
 APART = 1.4
 """Hatches of one direction differ where their spacings do by this factor."""
@@ -95,7 +102,9 @@ def patterns_on_sheet(sections: Sequence[Mapping[str, Sequence[Floats]]], paper:
         # Best is another direction; where neighbours have both, another spacing.
         turned = [own for own in choices[:2] if all(own.angle != other.angle for other in near)]
         apart = [own for own in choices if not any(map(own.like, near))]
-        found[name] = next(iter((*turned, *apart)), choices[len(near) % len(choices)])
+        # Where there are more neighbours than patterns, it is like as few of them as can be.
+        fewest = min(choices, key=lambda own: sum(map(own.like, near)))
+        found[name] = next(iter((*turned, *apart)), fewest)
     return found
 
 

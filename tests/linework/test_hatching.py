@@ -122,6 +122,23 @@ def test_ten_parts_in_a_fan_that_all_touch_get_patterns_without_end():
     assert len(set(found)) >= 6
 
 
+def fan(number: int, length: float):
+    """Wedges that meet at their tips."""
+    return {f"{k}": [np.array([[0, 0], [length, 10.0 * k], [length, 10.0 * k + 10]])] for k in range(number)}
+
+
+@pytest.mark.parametrize("length", [1.5, 8.0, 50.0, 300.0])
+def test_eighteen_parts_that_all_touch_have_hatches_that_differ(length):
+    found = list(patterns_of(fan(18, length), 841.0).values())
+    assert not any(one.like(other) for k, one in enumerate(found) for other in found[:k])
+
+
+def test_more_parts_share_hatches_evenly():
+    """A part is like as few of those that it touches as can be."""
+    found = list(patterns_of(fan(40, 50.0), A4).values())
+    assert max(sum(map(one.like, found)) for one in found) <= 3
+
+
 def test_comparing_a_few_corners_at_a_time_changes_nothing(monkeypatch):
     parts = {"a": [rectangle(0, 0, 30, 30)], "b": [rectangle(30, 0, 30, 30)], "c": [rectangle(61, 0, 30, 30)]}
     whole = patterns_of(parts, A4)
