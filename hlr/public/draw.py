@@ -67,7 +67,8 @@ def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, *
     """One view of a source; the keywords are the fields of `Options`.
 
     source    the path of a file or a script; a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object; a list
-              of CAD objects; or a pair of arrays: vertices (n, 3) and faces (m, 3) that index them
+              of CAD objects, or a dict that gives them names; or a pair of arrays: vertices (n, 3) and faces (m, 3)
+              that index them
     view      a name such as "iso" or "front", or a direction (x, y, z) from the object toward the viewer
     progress  called with the name of each stage and the fraction done, 0 to 1
 

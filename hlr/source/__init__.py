@@ -30,8 +30,8 @@ def open_source(
 
     Args:
         thing: the name of a file, a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object, a list of CAD
-            objects, or a pair (vertices (n, 3), faces (m, 3)). Whatever follows the protocol `Source` is open already
-            and stays as it is.
+            objects, a dict that gives them names, or a pair (vertices (n, 3), faces (m, 3)). Whatever follows the
+            protocol `Source` is open already and stays as it is.
         var: the variable of a script to draw, instead of what it shows.
         annotations: faces of annotation, hidden or supplemental in a STEP file, count as well.
         parameters: values for variables of a script.
@@ -58,6 +58,11 @@ def open_source(
 
 def _cure(thing: object) -> str:
     """What to pass instead of an object that nothing opens."""
+    from hlr.source.cad.collected import why_not_read
+    from hlr.source.cad.objects import is_shape_like
+
+    if (why := why_not_read(thing, is_shape_like)) is not None:
+        return why
     missing = list(missing_of_source(thing))
     if len(missing) <= FEW:
         return f"as a source (hlr.source.model.Source) it lacks {listed(missing, 'and')}"

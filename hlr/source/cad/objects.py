@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
 from hlr.common.types import Color
 from hlr.errors import SourceError
 from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.collected import is_collection, items_of, nones_in, renamed
 from hlr.source.cad.colors import color_of_wrapper
 from hlr.source.cad.occt_import import load_occt
 from hlr.source.cad.parts import Leaf
@@ -19,7 +20,9 @@ from hlr.tables.readers import what_to_pass
 
 
 def open_object(thing: Any, name: str = "") -> BrepSource:
-    """A shape, a workplane, an assembly, a builder, or a list of these.
+    """A shape, a workplane, an assembly, a builder, a list of these, or a dict that gives them names.
+
+    None in a list or a dict, as an optional part is, is left out with a warning.
 
     Raises:
         SourceError: it is none of them, or holds nothing to draw.
@@ -29,7 +32,7 @@ def open_object(thing: Any, name: str = "") -> BrepSource:
     leaves = to_leaves(thing, "part")
     if not leaves:
         raise SourceError(f"{label} holds no shapes: there is nothing to draw.")
-    return build_source(label, "object", leaves)
+    return build_source(label, "object", leaves, list(nones_in(thing)))
 
 
 def is_shape_like(thing: Any) -> bool:
@@ -41,13 +44,14 @@ def is_shape_like(thing: Any) -> bool:
         return _wrapped(thing) is not None or _is_instance_of(thing, "Shape", "Builder", "ShapeList")
     if package == "OCP":
         return _is_instance_of(thing, "TopoDS_Shape")
-    return isinstance(thing, list | tuple) and len(thing) > 0 and all(is_shape_like(item) for item in thing)
+    items = [item for item in items_of(thing) if item is not None] if is_collection(thing) else []
+    return bool(items) and all(map(is_shape_like, items))
 
 
 def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float = 1.0) -> list[Leaf]:
     """Leaves of a supported object. name, color, opacity: used where the object has none of its own.
 
-    Leaves of nested assemblies are named by their path: gearbox/shaft/key.
+    Leaves of nested assemblies are named by their path: gearbox/shaft/key. Those in a dict are named by their keys.
 
     Raises:
         SourceError: not a supported object.
@@ -61,9 +65,23 @@ def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float 
         label = getattr(thing, "label", "")
         leaves = _build123d(thing, label or name, color, opacity)
         return _inside(label, leaves) if getattr(thing, "children", ()) else leaves
-    if isinstance(thing, Iterable) and not isinstance(thing, str | bytes | dict):
-        return [leaf for item in thing for leaf in to_leaves(item, name, color, opacity)]
+    if isinstance(thing, Mapping):
+        return [leaf for key, item in thing.items() for leaf in _of_key(str(key) or name, item, color, opacity)]
+    if isinstance(thing, Iterable) and not isinstance(thing, str | bytes):
+        return [leaf for item in thing if item is not None for leaf in to_leaves(item, name, color, opacity)]
     raise SourceError(f"An object of type {type(thing).__name__} cannot be drawn: pass {what_to_pass()}.")
+
+
+def _of_key(key: str, thing: Any, color: Color | None, opacity: float) -> list[Leaf]:
+    """Leaves of what a dict has under a key."""
+    if thing is None:
+        return []
+    own = str(getattr(thing, "label", "") or getattr(thing, "name", "") or "") if package_of(thing) in _NAMED else ""
+    return renamed(to_leaves(thing, key, color, opacity), own, key)
+
+
+_NAMED = ("cadquery", "build123d")
+"""Packages whose objects may have names of their own."""
 
 
 def _cadquery(thing: Any, name: str, color: Color | None, opacity: float) -> list[Leaf]:

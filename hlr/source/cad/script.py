@@ -27,6 +27,7 @@ from hlr.drawing.notes import Note
 from hlr.errors import OptionError, SourceError
 from hlr.request.options import Parameter
 from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.collected import nones_in
 from hlr.source.cad.colors import ColorOpacity
 from hlr.source.cad.objects import is_shape_like, to_leaves
 from hlr.source.cad.occt_import import import_failure_message, load_occt
@@ -69,7 +70,8 @@ def open_script(path: Path, var: str | None = None, parameters: Mapping[str, Par
         raise SourceError(_nothing_shown(path, values, [type(thing).__name__ for thing, _, _ in chosen]))
     if left_out:
         why += f", without what is no shape ({', '.join(left_out)})"
-    return build_source(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}.")])
+    missing = [note for thing, _, _ in chosen for note in nones_in(thing)]
+    return build_source(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}."), *missing])
 
 
 def _nothing_shown(path: Path, values: dict[str, Any], empty: list[str]) -> str:
