@@ -32,11 +32,17 @@ pub struct DividedBody {
 }
 
 impl DividedBody {
-    /// bulge: how far surfaces may reach beyond the mesh.
+    /// bulge: how far surfaces may reach beyond the mesh; seams: as of `Regions::new`.
     ///
     /// # Errors
     /// Why the body cannot be divided.
-    pub fn new(body: Body, coarse: Tessellation, plane: &Plane, bulge: f64) -> Result<DividedBody, &'static str> {
+    pub fn new(
+        body: Body,
+        coarse: Tessellation,
+        plane: &Plane,
+        bulge: f64,
+        seams: bool,
+    ) -> Result<DividedBody, &'static str> {
         let mut vertices = vertices(&body, &coarse)?;
         let mut pieces = Vec::with_capacity(body.edges.len());
         for (edge, line) in body.edges.iter().zip(&coarse.lines) {
@@ -57,7 +63,7 @@ impl DividedBody {
             if misses(&own.face, found, plane, bulge) {
                 return Err(NEARLY);
             }
-            left.push(left_of(own, found, &border, plane, &mut vertices)?);
+            left.push(left_of(own, found, &border, plane, seams, &mut vertices)?);
         }
         Ok(DividedBody { body, coarse, pieces, left, vertices })
     }
@@ -88,6 +94,7 @@ fn left_of(
     found: &MeshedFace,
     border: &Border,
     plane: &Plane,
+    seams: bool,
     vertices: &mut Vec<Vector>,
 ) -> Result<Left, &'static str> {
     let mesh = &found.mesh;
@@ -99,7 +106,7 @@ fn left_of(
         return Ok(Left::Nothing);
     }
     if corners().any(|p| plane.is_beyond(p)) {
-        let regions = Regions::new(&own.face, found, border, plane);
+        let regions = Regions::new(&own.face, found, border, plane, seams);
         let section = section(&own.face, found, border, &regions, plane, vertices)?;
         return Ok(Left::Part(Box::new((section, regions))));
     }

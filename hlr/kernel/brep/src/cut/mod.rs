@@ -27,6 +27,8 @@ mod section_spline;
 mod separate;
 mod trace;
 
+use std::collections::HashSet;
+use std::iter::once;
 use std::sync::atomic::AtomicUsize;
 
 use rayon::prelude::*;
@@ -45,6 +47,9 @@ pub use plane::Plane;
 const COARSE: f64 = 1e-4;
 /// Radians from chord to chord of that mesh.
 const COARSE_ANGLE: f64 = 0.2;
+
+/// Of the size of a body: how far places may differ by rounding alone.
+const ROUNDING: f64 = 1e-13;
 
 /// Why a part is not cut whose faces are triangles alone.
 pub const BARE: &str = "its faces are triangles without surfaces";
@@ -85,12 +90,44 @@ fn try_cut(
     if body.solids == 0 && body.is_nested() {
         return Err("one body of its faces lies within another");
     }
-    let cut = cut_body(&body, plane, true, stopped);
-    match through_a_corner(&body, plane) {
-        // Beside a seam that is not quite in one plane, a film may be left.
-        Some(moved) if cut.is_err() => cut_body(&body, &moved, false, stopped).or(cut),
-        _ => cut,
+    let moved = through_a_corner(&body, plane);
+    let beside = moved.filter(|moved| (moved.level - plane.level).abs() > ROUNDING * body.size());
+    // A plane that runs beside a corner by rounding alone runs through it.
+    let plane = if beside.is_none() { moved.as_ref().unwrap_or(plane) } else { plane };
+    let cut = cut_body(&body, plane, How { films: true, seams: true }, stopped);
+    if cut.is_ok() {
+        return cut;
     }
+    let mut tries: Vec<(&Plane, bool)> = beside.iter().map(|moved| (moved, true)).collect();
+    if has_seams(&body) {
+        tries.extend(once((plane, false)).chain(beside.iter().map(|moved| (moved, false))));
+    }
+    // Beside a seam that is not quite in one plane, a film may be left.
+    let how = |seams| How { films: false, seams };
+    tries
+        .into_iter()
+        .map(|(plane, seams)| cut_body(&body, plane, how(seams), stopped))
+        .find(Result::is_ok)
+        .unwrap_or(cut)
+}
+
+/// Whether a face uses an edge twice.
+fn has_seams(body: &Body) -> bool {
+    let mut used: HashSet<u32> = HashSet::new();
+    body.faces.iter().any(|own| {
+        used.clear();
+        own.face.wires.iter().flatten().any(|each| !used.insert(each.edge))
+    })
+}
+
+/// How a body is cut. A narrow strip beside a seam, and half a ball with the seam in its middle, are cut where faces end at
+/// their seams; others are not, or the seam would be an edge of what is left.
+///
+/// films: as of `check`; seams: whether faces go on across their seams
+#[derive(Clone, Copy)]
+struct How {
+    films: bool,
+    seams: bool,
 }
 
 /// The plane through the lowest of the corners that lie on it, where it runs beside that. A sphere whose seam lies
@@ -103,8 +140,7 @@ fn through_a_corner(body: &Body, plane: &Plane) -> Option<Plane> {
     (lowest != 0.0).then_some(Plane { level: plane.level + lowest, ..*plane })
 }
 
-/// films: as of `check`.
-fn cut_body(body: &Body, plane: &Plane, films: bool, stopped: &(dyn Fn() -> bool + Sync)) -> Result<Cut, &'static str> {
+fn cut_body(body: &Body, plane: &Plane, how: How, stopped: &(dyn Fn() -> bool + Sync)) -> Result<Cut, &'static str> {
     let deflection = COARSE * body.size();
     let watch = Watch { stopped, done: &AtomicUsize::new(0) };
     let cornered = with_corners(body, plane, CUT_BULGE * deflection);
@@ -116,12 +152,12 @@ fn cut_body(body: &Body, plane: &Plane, films: bool, stopped: &(dyn Fn() -> bool
     if coarse.faces.iter().any(|face| face.fault.is_some()) {
         return Err("a face has no mesh");
     }
-    let divided = DividedBody::new(body.clone(), coarse, plane, CUT_BULGE * deflection)?;
+    let divided = DividedBody::new(body.clone(), coarse, plane, CUT_BULGE * deflection, how.seams)?;
     if divided.is_whole() {
         return Ok(Cut::Whole);
     }
     let Some(pieces) = assembled(&divided, plane)? else { return Ok(Cut::Gone) };
-    let checked = check(&divided, &pieces, plane, films, deflection, COARSE_ANGLE, &watch);
+    let checked = check(&divided, &pieces, plane, how.films, deflection, COARSE_ANGLE, &watch);
     if stopped() {
         return Ok(Cut::Stopped);
     }

@@ -29,7 +29,8 @@ pub struct Regions {
 }
 
 impl Regions {
-    pub fn new(face: &Face, found: &MeshedFace, border: &Border, plane: &Plane) -> Regions {
+    /// `seams`: whether what lies on both sides of a seam is one region; else it is as if other faces met there.
+    pub fn new(face: &Face, found: &MeshedFace, border: &Border, plane: &Plane, seams: bool) -> Regions {
         let mesh = &found.mesh;
         // A point of the border where it touches itself may be the corner of no triangle, as another stands in for it.
         let mut below = vec![false; mesh.points.len()];
@@ -73,7 +74,7 @@ impl Regions {
         }
         // A face goes on across its seam.
         for (&(edge, chord, ahead), &corner) in &of_chord {
-            if let (true, Some(&other)) = (ahead, of_chord.get(&(edge, chord, false))) {
+            if let (true, Some(&other)) = (ahead && seams, of_chord.get(&(edge, chord, false))) {
                 sets.unite(corner as usize, other as usize);
             }
         }
