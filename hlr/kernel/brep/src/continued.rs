@@ -28,7 +28,7 @@ const REACH: f64 = 0.3;
 const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 /// Shares of the distance from the edge. Files round what they write: surfaces closer together than NEAR of the distance
 /// are the same. Surfaces farther apart than FAR are two, whatever tolerance a file states.
-const NEAR: f64 = 1e-6;
+const NEAR: f64 = 1e-5;
 const FAR: f64 = 1e-3;
 
 /// A face that has the edge, and its use of the edge.

@@ -3,8 +3,10 @@
 //! All of them together show what one of them shows, but every surface would be tried with every other: n of them would
 //! take n times n as long as one.
 
-use std::collections::HashMap;
 use std::ops::Range;
+
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::tables::Tables;
 
@@ -34,20 +36,19 @@ impl Tables {
     /// The earlier one repeats no other: distances do not add up along a row of parts.
     pub fn repeats(&self, near: f64) -> Vec<Repeat> {
         let counts = |part: usize| self.rows(part).map(|rows| rows.len());
-        let mut alike: HashMap<[usize; 3], usize> = HashMap::new();
+        let mut alike: FxHashMap<[usize; 3], usize> = FxHashMap::default();
         (0..self.len()).for_each(|part| *alike.entry(counts(part)).or_default() += 1);
         let largest = self.points.iter().flatten().fold(0.0, |most: f64, c| most.max(c.abs()));
         let width = 2.0 * (near + ROUNDED * largest);
-        let mut firsts: HashMap<Key, Vec<usize>> = HashMap::new();
+        let marked = |part: usize| (alike[&counts(part)] > 1).then(|| marks(&self.points[self.rows(part)[0].clone()]));
+        let marked: Vec<_> = (0..self.len()).into_par_iter().map(marked).collect();
+        let mut firsts: FxHashMap<Key, Vec<usize>> = FxHashMap::default();
         let mut out = Vec::new();
         for part in 0..self.len() {
-            let [points, triangles, _] = self.rows(part);
-            let counts = counts(part);
-            if triangles.is_empty() || alike[&counts] < 2 {
-                continue;
-            }
+            let ([_, triangles, _], counts) = (self.rows(part), counts(part));
+            let Some(marks) = marked[part].filter(|_| !triangles.is_empty()) else { continue };
             // Of cells twice as wide as `near`, a mark less far away lies in this one, or beside it on the nearer side.
-            let at = marks(&self.points[points]).map(|c| c / width);
+            let at = marks.map(|c| c / width);
             let cell = at.map(|c| c.floor() as i64);
             let side = at.map(|c| if c - c.floor() < 0.5 { -1 } else { 1 });
             let step = |corner: usize, k: usize| if corner >> k & 1 == 1 { side[k] } else { 0 };

@@ -47,14 +47,18 @@ pub fn short_pieces(lines: &[Polyline], owners: &[Owners], widths: Widths) -> Ve
         let piece = &sides[number as usize];
         let of = &owners[piece.line as usize];
         let mut beside: Option<u32> = None;
-        drawn.each_near(number, |by| {
-            let line = &sides[by as usize];
-            if of.is_sunk_in(&owners[line.line as usize])
-                && covered(piece, line, widths.under, widths.same).is_some_and(|(a, b)| a <= middle && middle <= b)
-            {
-                beside = Some(beside.map_or(line.line, |first| first.min(line.line)));
-            }
-        });
+        drawn.each_near(
+            number,
+            |_| true,
+            |by| {
+                let line = &sides[by as usize];
+                if of.is_sunk_in(&owners[line.line as usize])
+                    && covered(piece, line, widths.under, widths.same).is_some_and(|(a, b)| a <= middle && middle <= b)
+                {
+                    beside = Some(beside.map_or(line.line, |first| first.min(line.line)));
+                }
+            },
+        );
         found[piece.line as usize] = beside;
     }
     found
