@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from difflib import get_close_matches
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import click
 
-from hlr.tables.readers import file_titles
+from hlr.tables.readers import endings, file_titles
 from hlr.tables.writers import titles
 
 VERBS = {
@@ -41,8 +42,10 @@ class Verbs(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As of click. Raises UsageError for a name that is none, with the nearest one."""
+        """As of click. Raises UsageError for a name that is none, with what may be meant."""
         name = args[0]
+        if name not in VERBS and Path(name).suffix.lower() in endings():
+            raise click.UsageError(f"{name!r} is a model, not a command: type hlr draw before it", ctx)
         near = get_close_matches(name, VERBS, 1)
         if near and name not in VERBS:
             raise click.UsageError(f"no such command {name!r}: did you mean {near[0]}?", ctx)

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, cast
 
 import click
@@ -56,9 +57,14 @@ class ViewName(click.ParamType[str | Vector3]):
 
         text = str(value).strip()
         if "," not in text:
-            if text.lower() not in NAMED:
-                self.fail(f"{text!r} is none of {', '.join(NAMED)}, nor three numbers such as 1,-1,1", param, ctx)
-            return text.lower()
+            if text.lower() in NAMED:
+                return text.lower()
+            near = get_close_matches(text.lower(), NAMED, 1)
+            if near:
+                self.fail(f"{text!r} is no view: did you mean {near[0]}?", param, ctx)
+            self.fail(f"{text!r} is none of {', '.join(NAMED)}, nor three numbers such as 1,-1,1", param, ctx)
+        if all(name.strip().lower() in NAMED for name in text.split(",")):
+            self.fail(f"{text!r} is several views: give the option once for each", param, ctx)
         vector = vector_of(text)
         if vector is None:
             self.fail(f"{text!r} is neither a name such as iso nor three numbers such as 1,-1,1", param, ctx)

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from difflib import get_close_matches
 
 from hlr.errors import ViewError
 from hlr.request.options import Perspective, Vector, View, ViewName
@@ -86,11 +87,17 @@ def directed(view: View) -> tuple[str, Vector, Vector | None]:
     return view if isinstance(view, str) else ",".join([f"{float(c):g}" for c in view]), direction, up
 
 
+def _meant(name: str) -> str:
+    """What to give instead of the name of a view that there is not: the nearest one, or what there is."""
+    near = get_close_matches(name.lower(), NAMED, 1)
+    return f"did you mean {near[0]}?" if near else f"use {', '.join(NAMED)}, or a direction such as 1,-1,1"
+
+
 def _aimed(view: View) -> tuple[Vector, Vector | None]:
     """The same without the name."""
     if isinstance(view, str):
         if view not in NAMED:
-            raise ViewError(f"no view is called '{view}': use {', '.join(NAMED)}, or a direction such as 1,-1,1")
+            raise ViewError(f"no view is called '{view}': {_meant(view)}")
         direction, up = NAMED[view]
         return normalized(direction, "the view direction"), up
     if isinstance(view, bytes | bytearray):

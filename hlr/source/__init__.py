@@ -74,13 +74,17 @@ FEW = 4
 
 
 def _open_path(path: Path, of_script: Mapping[str, Any], of_file: Mapping[str, bool]) -> Source:
-    from hlr.source.file_checks import check_readable
+    from hlr.source.file_checks import check_readable, content_of
 
     reader = of_ending(path.suffix)
     check_readable(path)
     if reader is None:
-        ending = f'the ending "{path.suffix}"' if path.suffix else "no ending"
-        raise SourceError(f"{path.name} has {ending}, which hlr cannot read: use one of {' '.join(endings())}.")
+        known = " ".join(endings())
+        if path.suffix:
+            raise SourceError(f'{path.name} has the ending "{path.suffix}", which hlr cannot read: use one of {known}.')
+        raise SourceError(
+            f"{path.name} has no ending, and hlr goes by it: it looks like {content_of(path)}; use {known}."
+        )
     _only_of_scripts(of_script, reader.takes, path.name)
     given = {**of_script, **of_file}
     if not reader.cached:

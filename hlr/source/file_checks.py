@@ -18,6 +18,8 @@ def check_readable(path: Path) -> None:
         if path.is_dir():
             raise SourceError(f"{path} is a folder: name a file in it.")
         if not path.exists():
+            if str(path) == "-":
+                raise SourceError("A model is read from a file, not from standard input: save it to a file first.")
             raise SourceError(f"{path} does not exist: check the name and the folder.")
         if not path.is_file():
             raise SourceError(f"{path} is not a regular file: save the model to a file first.")
@@ -46,6 +48,12 @@ def check_signature(path: Path, mark: bytes, what: str) -> None:
 def wrong_format(path: Path, what: str, head: bytes) -> SourceError:
     """The error that a file is not of the format `what`; head: its first bytes, which say what it looks like."""
     return SourceError(f"{path.name} is not {what}: it looks like {describe_content(head)}.")
+
+
+def content_of(path: Path) -> str:
+    """The kind of content that a file seems to have, in words."""
+    with path.open("rb") as file:
+        return describe_content(file.read(4096))
 
 
 def describe_content(head: bytes) -> str:

@@ -96,7 +96,7 @@ def test_single_options_override_the_style(hlr_command):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--view", "isso"], "'isso' is none of front, back, left"),
+        (["--view", "isso"], "'isso' is no view: did you mean iso?"),
         (["--view", "1,2"], "three numbers"),
         (["--view", "1,2,x"], "three numbers"),
         (["--view", "1,nan,1"], "three numbers"),

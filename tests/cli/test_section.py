@@ -59,7 +59,7 @@ def test_parts_stay_whole(draw, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--section", "frnt"], "'frnt' is none of front, back"),
+        (["--section", "frnt"], "'frnt' is no view: did you mean front?"),
         (["--section", "front@"], "'front@' names no plane: give front, front@12.5 in millimetres, or front@0,12.5,0"),
         (["--section", "front@a"], "'front@a' names no plane"),
         (["--section", "front@1,2"], "'front@1,2' names no plane"),
@@ -86,7 +86,7 @@ def test_parts_stay_whole(draw, tmp_path):
         (["--uncut", "bolt"], "--uncut is for --section: leave it out, or say what is cut"),
         (["--whole", "left"], "--whole is for --section: leave it out, or say what is cut"),
         (["--section", "front", "--whole", "left"], "--whole left is none of the sections, front: leave it out"),
-        (["--section", "front", "--whole", "lft"], "'lft' is none of front, back, left"),
+        (["--section", "front", "--whole", "lft"], "'lft' is no view: did you mean left?"),
         (["--section", "front", "--whole", "front"], "2 views cannot share the one file a.svg"),
     ],
 )

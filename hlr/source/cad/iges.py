@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from hlr.drawing.notes import Note
-from hlr.errors import SourceError
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.occt_import import load_occt
 from hlr.source.cad.parts import Leaf
@@ -16,6 +15,7 @@ from hlr.source.cad.prototypes import binary_dump
 from hlr.source.cad.sewing import sewn, with_shape
 from hlr.source.cad.shapes import sub_shapes, with_location
 from hlr.source.cad.xcaf import read_document
+from hlr.source.file_checks import wrong_format
 
 
 def open_iges(path: Path) -> BrepSource:
@@ -26,7 +26,7 @@ def open_iges(path: Path) -> BrepSource:
     """
     head = path.open("rb").read(240)
     if len(head) < 80 or head[72:73] not in b"SBC":
-        raise SourceError(f"{path.name} is not an IGES file (column 73 of its first line is not S): check the file.")
+        raise wrong_format(path, "an IGES file (column 73 of its first line is not S)", head)
     load_occt()
     from OCP.IGESCAFControl import IGESCAFControl_Reader
 
