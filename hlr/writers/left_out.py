@@ -20,7 +20,7 @@ def left_out(drawing: Drawing, format: str, file: str) -> list[Note]:
     template = "" if drawing.sheet is None else drawing.sheet.template
     page = f'Page "{drawing.view.name}":'
     if template and format == "dxf":
-        text = f"{page} the template not drawn in {file}, which has the lines alone."
+        text = f"{page} the template is not drawn in {file}, which has the lines alone."
         return [Note("page-items-left-out", text)]
     if template and format in ("pdf", "png"):
         letters = _missing_letters(template)

@@ -206,7 +206,7 @@ def test_what_files_leave_out_of_a_page_stands_in_the_report(tmp_path):
     assert outcome.warned
     assert [note["text"] for note in outcome.drawings[0]["notes"]][:2] == [
         'Page "third-angle": "図" not drawn in PDF, but ? instead: SVG has all letters.',
-        'Page "third-angle": the template not drawn in DXF, which has the lines alone.',
+        'Page "third-angle": the template is not drawn in DXF, which has the lines alone.',
     ]
     assert b"not drawn" not in outcome.contents[0][3]  # the same bytes as those of `hlr draw`
     _, (job,) = jobs(tmp_path, formats=["pdf"], strict=True, **keys)

@@ -58,7 +58,7 @@ def test_a_template_with_a_title(hlr_real, tmp_path):
     found = json.loads((tmp_path / "a.json").read_text("utf-8"))
     assert (found["format"], found["texts"]) == ("hlr-page", {"TITLE": "Two = three"})
     done = hlr_real("draw", STEP, *page, "-o", "a.dxf")
-    assert 'warning: Page "third-angle": the template not drawn in a.dxf, which has the lines alone.' in done.err
+    assert 'warning: Page "third-angle": the template is not drawn in a.dxf, which has the lines alone.' in done.err
     done = hlr_real("draw", STEP, *page[:5], "TITLE=≥ 5 图", "-o", "a.pdf")
     assert 'warning: Page "third-angle": "图" not drawn in a.pdf, but ? instead: SVG has all letters.' in done.err
 
