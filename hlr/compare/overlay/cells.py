@@ -20,12 +20,15 @@ _WHAT = {
 }
 
 
-def cells_of(each: Difference, words: dict[str, str]) -> tuple[str, ...]:
-    """Difference, mm, place, class, part, who is right; the last one is empty where nothing was judged."""
+def cells_of(each: Difference, words: dict[str, str], count: int = 1) -> tuple[str, ...]:
+    """Difference, mm, place, class, part, who is right; the last one is empty where nothing was judged.
+
+    count: the lines that it stands for
+    """
     what = _WHAT.get(each.kind, words.get(each.kind, each.kind)).format(told(each.moved_mm))
     seen = {True: "visible", False: "hidden", None: ""}[each.visible]
     line = " ".join(word for word in (seen, "" if each.line_class == UNKNOWN else each.line_class) if word) or UNKNOWN
-    became = f", now {each.became}" if each.became else ""
+    became = f", now {each.became}" if each.became else f", {count} lines" if count > 1 else ""
     name = printable(each.part or "")
     edge = "" if each.edge is None else f", edge {each.edge}"
     # Parts of a page are called by their view already.
