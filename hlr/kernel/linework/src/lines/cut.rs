@@ -13,6 +13,7 @@ use super::runs::{self, Limits};
 use super::short_pieces::short_pieces;
 use super::simplify::simplify;
 use super::specks::drop_specks;
+use super::turned::begin_at_a_turn;
 use super::{Polyline, View};
 use crate::fit::bezier::Chain;
 use crate::fit::pierced::Meeting;
@@ -76,7 +77,7 @@ pub fn cut(
 ) -> Option<Cut> {
     let view = &geometry.camera.view();
     let met = Meetings::new(geometry, chains, t.accuracy / geometry.camera.scale);
-    let lines: Vec<Polyline> = (0..traits.len())
+    let mut lines: Vec<Polyline> = (0..traits.len())
         .into_par_iter()
         .flat_map_iter(|c| {
             let (edges, reversed) = chains.of(c);
@@ -90,6 +91,7 @@ pub fn cut(
     if stopped() {
         return None;
     }
+    lines.par_iter_mut().for_each(|line| begin_at_a_turn(line, t.widths));
     let owners: Vec<Owners> = lines.iter().map(|line| Owners::of(&chains.about[line.chain as usize])).collect();
     let short_pieces = short_pieces(&lines, &owners, t.widths);
     let ranks = ranked(&lines, traits, &short_pieces, view, t.space);

@@ -4,11 +4,12 @@
 //!    `candidates` adds the contours of the mesh)
 //! 2. `runs`        along a chain (`geometry`) equal states join, doubtful and short runs are decided, and lines are cut
 //!    out; `loops` are cut off the contours of meshes
-//! 3. `coincident`  of lines that coincide on paper one is kept, visible before hidden; `gaps` cuts out the others,
+//! 3. `turned`      a line that runs back over itself begins where that leaves one line
+//! 4. `coincident`  of lines that coincide on paper one is kept, visible before hidden; `gaps` cuts out the others,
 //!    `stretches` says what covers what, `owners` whose lines may be farther apart, `short_pieces` which of those give
 //!    way, `pairs` finds those beside one another, `drawn` where there are very many, both in square `cells` of the paper
-//! 4. `specks`      figures shorter than the accuracy, with all they connect to, are dropped
-//! 5. `simplify`    vertices that the accuracy does not need are left out
+//! 5. `specks`      figures shorter than the accuracy, with all they connect to, are dropped
+//! 6. `simplify`    vertices that the accuracy does not need are left out
 //!
 //! Creases of meshes keep their vertices where other lines end (`ends`). Contours of meshes are smoothed instead
 //! (`fit::smooth`).
@@ -37,6 +38,7 @@ pub mod short_pieces;
 pub mod simplify;
 pub mod specks;
 mod stretches;
+mod turned;
 
 #[cfg(test)]
 mod tests;
