@@ -33,7 +33,7 @@ class Clashes:
     edges    (m, 2) into points
     group    (m, 2) the two groups of each edge, the lower first
     triangle (m, 2) a triangle of each of these groups that the edge lies on
-    shallow  (m,) bool: neither surface is deep in the other there; of B-reps, along the whole line of the edge
+    shallow  (m,) bool: along the whole line of the edge one surface is nowhere deep in the other
     through  (g,) bool: the group intersects itself
     """
 

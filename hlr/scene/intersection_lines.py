@@ -37,8 +37,6 @@ def intersection_lines(
         bent = np.asarray(known[both].all(axis=1) & ~surfaces.planar[both].all(axis=1))
         # Only curves end where the face changes: planes have straight lines in common, on one face as on the next.
         pair = np.concatenate([pair, np.where(bent[:, None], both, -1)], axis=1)
-    # Where a line is shallow, it gives way to others: there it is a line of its own.
-    pair = np.concatenate([pair, met.shallow[:, None].astype(np.int32)], axis=1)
     _, key = np.unique(pair, axis=0, return_inverse=True)
     offsets, order, backward = _kernel.chain(met.edges, key.ravel().astype(np.int32), met.points, STRAIGHT_ON)
     head = order[offsets[:-1]]

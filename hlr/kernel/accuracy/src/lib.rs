@@ -61,7 +61,7 @@ pub const CONTACT_POINT: f64 = 1e-3;
 /// Of the deflection, over the sine of the angle between two surfaces: how far the line of their meshes may be from the
 /// true one. Each mesh is off by one deflection.
 pub const INTERSECTION_MOVE: f64 = 4.0;
-/// Of the deflection: where neither surface is deeper in the other, an intersection line is shallow. This is four
+/// Of the deflection: an intersection line along which one surface is nowhere deeper in the other is shallow. This is four
 /// accuracies. Up to three of them, the sunk surface's own edge and the line are less far apart on paper than a pen is
 /// wide; the fourth is for the chord errors of both.
 pub const INTERSECTION_SHALLOW: f64 = 8.0;

@@ -24,7 +24,7 @@ pub struct Segment {
     pub ends: [i32; 2],
     pub groups: [usize; 2],
     pub triangles: [u32; 2],
-    /// Neither surface is deep in the other here, so that an edge of one may run beside the line.
+    /// Its whole figure is shallow: see `shallow`.
     pub shallow: bool,
 }
 
@@ -177,18 +177,15 @@ fn extents(all: &[Candidate], chosen: &[usize], figure: &[usize], count: usize, 
     boxes.iter().map(|(low, high)| sub(high, low).into_iter().fold(0.0, f64::max)).collect()
 }
 
-/// The kept segments where neither surface is deep in the other, so that an edge of one may run beside the line. Lines of
-/// B-reps have true curves, which stay whole: there it is asked of whole figures. Meshes are often one body of many parts,
-/// and a figure that goes all around them is deep somewhere.
+/// The kept segments of figures along which one surface is nowhere deep in the other, so that its own edge may run beside
+/// the figure.
 fn shallow(bodies: &Bodies, all: &[Candidate], kept: &[usize], nodes: &Nodes) -> Vec<bool> {
     let (figure, count) = figures(nodes, kept);
     let mut deepest = vec![0.0f64; count];
     for (&i, &f) in kept.iter().zip(&figure) {
         deepest[f] = deepest[f].max(all[i].depth.level);
     }
-    let depth = |i: usize, f: usize| if bodies.of_breps(&all[i].clash) { deepest[f] } else { all[i].depth.level };
-    let least = INTERSECTION_SHALLOW * bodies.deflection;
-    kept.iter().zip(&figure).map(|(&i, &f)| depth(i, f) < least).collect()
+    figure.iter().map(|&f| deepest[f] < INTERSECTION_SHALLOW * bodies.deflection).collect()
 }
 
 /// The kept segments in which a solid meets itself, in figures hardly larger than the triangles they lie on.
@@ -225,20 +222,17 @@ mod tests {
     /// Two walls, `wall` deep in a floor, and a segment between them in which faces meet at no angle, `level` deep. Up to
     /// `certain` a wall only touches the floor in some views.
     fn found(level: f64, wall: f64, certain: f64) -> Vec<Segment> {
-        of_bodies(level, wall, certain, [false; 2])
-    }
-
-    fn of_bodies(level: f64, wall: f64, certain: f64, without_brep: [bool; 2]) -> Vec<Segment> {
         let points = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
         let edges = Edges { edges: &[], offsets: &[0], incident: &[] };
         let sheet = Sheet::new(&points, (&[[0, 1, 2]; 2], &[[0.0, 0.0, 1.0]; 2]), (edges, &[]));
         let (planes, touch) = (Planes::default(), [1.0; 2]);
+        let without_brep = &[false; 2];
         let bodies = Bodies {
             sheet,
             group: &[0, 1],
             face: &[0, 1],
             planes: &planes,
-            without_brep: &without_brep,
+            without_brep,
             touch: &touch,
             deflection: 0.5,
         };
@@ -267,13 +261,5 @@ mod tests {
     fn lines_of_what_is_nowhere_deep_are_shallow() {
         let shallow = |wall| found(1e-7, wall, FORGIVEN).iter().all(|segment| segment.shallow);
         assert!(shallow(3.9) && !shallow(4.1));
-    }
-
-    #[test]
-    fn lines_of_meshes_are_shallow_where_they_are_not_deep() {
-        // Both walls, then the segment between them.
-        let shallow = |without_brep| of_bodies(0.05, 4.1, FORGIVEN, without_brep).iter().map(|s| s.shallow).collect();
-        let (breps, meshes): (Vec<bool>, Vec<bool>) = (shallow([false; 2]), shallow([true; 2]));
-        assert_eq!((breps, meshes), (vec![false; 3], vec![false, false, true]));
     }
 }

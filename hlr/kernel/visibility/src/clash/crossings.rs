@@ -30,7 +30,7 @@ pub struct Crossings {
     pub groups: Vec<[i32; 2]>,
     /// A triangle of each group of each segment.
     pub triangles: Vec<[i32; 2]>,
-    /// Per segment: neither surface is deep in the other there; of B-reps, all along its figure.
+    /// Per segment: one surface is nowhere deep in the other along its line.
     pub shallow: Vec<bool>,
     /// Per group: it passes through itself.
     pub through: Vec<bool>,
