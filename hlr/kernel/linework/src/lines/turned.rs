@@ -23,7 +23,7 @@ const CLOSED: f64 = 1e-3;
 /// Lets a closed line that runs back over its start begin at a turn, and leaves short ways back out of an open one.
 pub fn begin_at_a_turn(line: &mut Polyline, widths: Widths) {
     let count = line.flat.len();
-    if count < 3 {
+    if !runs_back(line) {
         return;
     }
     let sides: Vec<(usize, Side)> = sides(line).collect();
@@ -79,6 +79,18 @@ fn begin_at<P: Copy + PartialEq>(points: &mut Vec<P>, first: usize) {
     let shared = points.first() == points.last();
     let rest = &points[usize::from(shared)..=first];
     *points = [&points[first..], rest].concat();
+}
+
+/// Whether any side runs back along the one before it: of most lines none does.
+fn runs_back(line: &Polyline) -> bool {
+    let mut before: Option<Side> = None;
+    for (_, side) in sides(line) {
+        if before.is_some_and(|before| turns_back(&before, &side)) {
+            return true;
+        }
+        before = Some(side);
+    }
+    false
 }
 
 /// Whether the second of two sides runs back along the first.
