@@ -17,6 +17,9 @@ Points = npt.NDArray[np.float64]
 WHOLE = 1e-9
 """Share of a turn: an arc that lacks no more than this is a full circle or ellipse."""
 
+CHORDS = 512
+"""Points by which the length of an arc, or of a piece of a chain, is measured."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Arc(ByValue):
@@ -59,6 +62,11 @@ class Arc(ByValue):
         return bool(abs(self.angles[1] - self.angles[0]) >= (1.0 - WHOLE) * tau)
 
     @property
+    def length_mm(self) -> float:
+        """Millimetres on paper, to five digits at least."""
+        return _along(self.at(np.linspace(self.angles[0], self.angles[1], CHORDS)))
+
+    @property
     def bounds(self) -> Points:
         """(2, 2) lower and upper corner."""
         return arc_bounds([self])
@@ -95,9 +103,21 @@ class Bezier(ByValue):
         return np.asarray(p[0])
 
     @property
+    def length_mm(self) -> float:
+        """Millimetres on paper, to five digits at least where no piece has a cusp."""
+        pieces = (len(self.points) - 1) // self.degree
+        return _along(self.at(np.linspace(0.0, pieces, CHORDS * pieces)))
+
+    @property
     def bounds(self) -> Points:
         """(2, 2) lower and upper corner, exact."""
         return bezier_bounds([self])
+
+
+def _along(points: Points) -> float:
+    """Millimetres along points (n, 2)."""
+    steps = np.diff(points, axis=0)
+    return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
 
 def arc_bounds(arcs: Sequence[Arc]) -> Points:

@@ -64,6 +64,8 @@ class Line(ByValue):
     <Line sharp, visible, part 0, edge 3, 2 points>
     >>> line.points.shape, line.points3.shape
     ((2, 2), (2, 3))
+    >>> sorted({round(line.length_mm) for line in hlr.draw("part.step", view="top", scale=1).visible})
+    [20, 25, 30]
     """
 
     kind: Kind
@@ -75,6 +77,14 @@ class Line(ByValue):
     points3: Points
     other: int | None = None
     curve: Curve | None = None
+
+    @property
+    def length_mm(self) -> float:
+        """Millimetres on paper: along the exact curve to five digits, else along the points."""
+        if self.curve is not None:
+            return self.curve.length_mm
+        steps = np.diff(self.points, axis=0)
+        return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
     def __repr__(self) -> str:
         seen = "visible" if self.visible else "hidden"

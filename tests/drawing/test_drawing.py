@@ -2,9 +2,11 @@
 
 import copy
 import io
+import math
 import pickle
 from dataclasses import FrozenInstanceError, fields, replace
 
+import cadquery as cq
 import numpy as np
 import pytest
 import trimesh
@@ -177,3 +179,15 @@ def test_drawings_are_the_same_type_only():
 
     made = drawing([])
     assert made != Other(**{f.name: getattr(made, f.name) for f in fields(made)})
+
+
+def test_the_length_of_a_line_is_that_of_its_exact_curve():
+    bored = cq.Workplane().box(30, 20, 10).faces(">Z").workplane().hole(8)
+    lengths = {len(line.points): line.length_mm for line in hlr.draw(bored, "top", scale=2, accuracy=0.5).visible}
+    assert lengths.pop(2) in (pytest.approx(40.0), pytest.approx(60.0))
+    (circle,) = lengths.values()
+    assert circle == pytest.approx(16.0 * math.pi, rel=1e-5)
+    # A quarter of a parabola's arc, y = x^2 / 2 from 0 to 1.
+    parabola = hlr.Bezier(2, np.array([(0.0, 0.0), (0.5, 0.0), (1.0, 0.5)]))
+    assert parabola.length_mm == pytest.approx(0.5 * (math.sqrt(2.0) + math.asinh(1.0)), rel=1e-5)
+    assert hlr.Bezier(2, np.array([(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)])).length_mm == pytest.approx(2.0)
