@@ -44,9 +44,9 @@ impl Tables {
         let marked: Vec<_> = (0..self.len()).into_par_iter().map(marked).collect();
         let mut firsts: FxHashMap<Key, Vec<usize>> = FxHashMap::default();
         let mut out = Vec::new();
-        for part in 0..self.len() {
+        for (part, marks) in marked.into_iter().enumerate() {
             let ([_, triangles, _], counts) = (self.rows(part), counts(part));
-            let Some(marks) = marked[part].filter(|_| !triangles.is_empty()) else { continue };
+            let Some(marks) = marks.filter(|_| !triangles.is_empty()) else { continue };
             // Of cells twice as wide as `near`, a mark less far away lies in this one, or beside it on the nearer side.
             let at = marks.map(|c| c / width);
             let cell = at.map(|c| c.floor() as i64);

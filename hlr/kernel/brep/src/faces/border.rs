@@ -4,6 +4,7 @@ use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use super::cap;
 use super::chain::{NEAR, chained};
+use super::node::Node;
 use super::uses::{Run, run};
 use crate::edges::{Polyline, from_chord};
 use crate::format::Orientation;
@@ -11,21 +12,11 @@ use crate::geometry::surface::Surface;
 use crate::geometry::vector::{length, sub};
 use crate::mesh::{FaceLoops, Fault, LoopPoint};
 use crate::model::Model;
-use crate::shapes::{Face, Use, Vertex};
+use crate::shapes::{Face, Use};
 use hlr_accuracy::CHORD_MOST;
 
 /// Share of the face's extent in (u, v) below which two points of one node are one point.
 const SAME: f64 = 1e-6;
-
-/// A point that faces share, as one face sees it: a vertex, or a corner inside an edge's polyline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Node {
-    Vertex(Vertex),
-    /// Number of the edge, its location, number of the corner.
-    Edge(u32, u32, u32),
-    /// A point of this face alone, on a seam that has no edge.
-    Inside(u32),
-}
 
 #[derive(Clone, Debug)]
 pub struct Border {

@@ -11,7 +11,7 @@
 //!     o____/  \____/          the border, from any u to u + period
 //! ```
 
-use super::Node;
+use super::node::Node;
 use crate::geometry::curve::Curve;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, along, dot, length, sub, unit};

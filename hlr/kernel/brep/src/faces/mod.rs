@@ -4,10 +4,12 @@ mod border;
 mod cap;
 mod chain;
 mod invert;
+mod node;
 mod uses;
 
-pub use border::{Border, Node, border};
+pub use border::{Border, border};
 pub use invert::near;
+pub use node::Node;
 
 #[cfg(test)]
 mod tests;
