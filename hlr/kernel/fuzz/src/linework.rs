@@ -14,6 +14,7 @@ use hlr_linework::lines::runs::cut;
 use hlr_linework::lines::short_pieces::short_pieces;
 use hlr_linework::lines::simplify::simplify;
 use hlr_linework::lines::specks::drop_specks;
+use hlr_linework::lines::turned::begin_at_a_turn;
 use hlr_linework::lines::{Polyline, View, distance};
 use hlr_visibility::scan::invisibility::State;
 
@@ -59,6 +60,10 @@ pub fn run(data: &[u8]) {
     if case.proper {
         check_length(&case, &lines);
     }
+    let begun = lines.clone();
+    lines.iter_mut().for_each(|line| begin_at_a_turn(line, case.tolerances.widths));
+    check_lines(&case, &lines, "turned");
+    check_turned(&case, &begun, &lines);
     let owners: Vec<Owners> = lines.iter().map(|line| Owners::of(&case.about(line.chain as usize))).collect();
     let short_pieces = short_pieces(&lines, &owners, case.tolerances.widths);
     let rank = ranked(&lines, &case.traits, &short_pieces, &case.view, case.tolerances.space);
@@ -273,6 +278,20 @@ fn check_length(case: &Case, lines: &[Polyline]) {
             continue;
         }
         assert!((found - wanted).abs() <= 1e-9 * (wanted + case.extent()), "chain {id}: {found} drawn of {wanted}");
+    }
+}
+
+/// Ways back are left out only beside what is left.
+fn check_turned(case: &Case, before: &[Polyline], after: &[Polyline]) {
+    if !case.sane() {
+        return;
+    }
+    let reach = case.tolerances.widths.same + 1e-9 * case.extent();
+    for (line, left) in before.iter().zip(after) {
+        for p in &line.flat {
+            let near = left.flat.windows(2).any(|w| off(p, &w[0], &w[1]) <= reach);
+            assert!(near, "{p:?} of {line:?} was turned away from {left:?}");
+        }
     }
 }
 

@@ -38,7 +38,7 @@ pub mod short_pieces;
 pub mod simplify;
 pub mod specks;
 mod stretches;
-mod turned;
+pub mod turned;
 
 #[cfg(test)]
 mod tests;
