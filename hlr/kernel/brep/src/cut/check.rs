@@ -2,14 +2,13 @@
 
 use std::collections::HashSet;
 
-use rustc_hash::FxHashMap;
-
 use super::divided_body::DividedBody;
 use super::enclosed::Enclosed;
+use super::joined::is_joined;
 use super::plane::Plane;
 use crate::body::{Body, model_of};
 use crate::explore::Part;
-use crate::geometry::vector::{Vector, length};
+use crate::geometry::vector::length;
 use crate::tessellate::{LIMITS, MeshedFace, Watch, tessellate};
 use hlr_accuracy::CUT_DISPLACED;
 
@@ -46,8 +45,7 @@ pub fn check(
         for placed in &part.faces {
             piece.add(&meshed.faces[placed.face as usize], placed.reversed);
         }
-        let is_near = |point: &Vector| plane.height(point).abs() <= deflection;
-        if length(&piece.area) > OPEN * piece.size || !is_joined(part, &meshed.faces, is_near) {
+        if length(&piece.area) > OPEN * piece.size || !is_joined(part, &meshed.faces, plane, deflection) {
             return Err("a piece does not close");
         }
         if !films && has_film(part, &meshed.faces) {
@@ -58,29 +56,6 @@ pub fn check(
     }
     let most = 6.0 * CUT_DISPLACED * deflection * (below.size + whole.size);
     if (whole.volume - below.volume).abs() > most { Err("what is left has another volume") } else { Ok(()) }
-}
-
-/// Whether each side of a triangle of a piece is there as often the other way round, where both of its ends are near the
-/// plane. A strip between the plane and a seam beside it may be too narrow to be meshed with the rest of its face, and has
-/// too little area to be missed.
-fn is_joined(part: &Part, faces: &[MeshedFace], is_near: impl Fn(&Vector) -> bool) -> bool {
-    let mut sides: FxHashMap<[[u64; 3]; 2], i32> = FxHashMap::default();
-    for placed in &part.faces {
-        let mesh = &faces[placed.face as usize].mesh;
-        let near: Vec<bool> = mesh.points.iter().map(&is_near).collect();
-        for t in &mesh.triangles {
-            for [a, b] in [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]] {
-                let ends = [a, b].map(|i| mesh.points[i as usize].map(|x| (x + 0.0).to_bits()));
-                if !(near[a as usize] && near[b as usize]) || ends[0] == ends[1] {
-                    continue;
-                }
-                let ahead = (ends[0] < ends[1]) != placed.reversed;
-                let key = if ends[0] < ends[1] { ends } else { [ends[1], ends[0]] };
-                *sides.entry(key).or_insert(0) += if ahead { 1 } else { -1 };
-            }
-        }
-    }
-    sides.values().all(|&count| count == 0)
 }
 
 /// Whether some triangle of a piece lies on another one, as between a plane and a seam that runs right beside it.

@@ -17,6 +17,7 @@ mod check;
 mod divided_body;
 mod edge_pieces;
 mod enclosed;
+mod joined;
 mod loops;
 mod near_misses;
 mod plane;
