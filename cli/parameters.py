@@ -53,9 +53,12 @@ class ViewName(click.ParamType[str | Vector3]):
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str | Vector3:
         """A vector where there is a comma; any other text must be a name. Names are checked before a long reading."""
-        from hlr.request.directions import NAMED
+        from hlr.request.directions import NAMED, is_several
 
         text = str(value).strip()
+        if is_several(text):
+            cure = "give the option once for each" if getattr(param, "multiple", False) else "give one of them"
+            self.fail(f"{text!r} is several views: {cure}", param, ctx)
         if "," not in text:
             if text.lower() in NAMED:
                 return text.lower()
@@ -63,8 +66,6 @@ class ViewName(click.ParamType[str | Vector3]):
             if near:
                 self.fail(f"{text!r} is no view: did you mean {near[0]}?", param, ctx)
             self.fail(f"{text!r} is none of {', '.join(NAMED)}, nor three numbers such as 1,-1,1", param, ctx)
-        if all(name.strip().lower() in NAMED for name in text.split(",")):
-            self.fail(f"{text!r} is several views: give the option once for each", param, ctx)
         vector = vector_of(text)
         if vector is None:
             self.fail(f"{text!r} is neither a name such as iso nor three numbers such as 1,-1,1", param, ctx)

@@ -87,8 +87,16 @@ def directed(view: View) -> tuple[str, Vector, Vector | None]:
     return view if isinstance(view, str) else ",".join([f"{float(c):g}" for c in view]), direction, up
 
 
+def is_several(text: str) -> bool:
+    """Whether it is names of two views or more, such as front,top."""
+    names = text.lower().replace(",", " ").replace(";", " ").split()
+    return len(names) > 1 and all(name in NAMED for name in names)
+
+
 def _meant(name: str) -> str:
     """What to give instead of the name of a view that there is not: the nearest one, or what there is."""
+    if is_several(name):
+        return "draw_views draws several"
     near = get_close_matches(name.lower(), NAMED, 1)
     return f"did you mean {near[0]}?" if near else f"use {', '.join(NAMED)}, or a direction such as 1,-1,1"
 

@@ -22,6 +22,7 @@ def test_a_model_in_place_of_the_command(hlr_real):
         ("frnt", "'frnt' is no view: did you mean front?"),
         ("front,top", "'front,top' is several views: give the option once for each"),
         ("front, top,iso", "'front, top,iso' is several views: give the option once for each"),
+        ("Front top", "'Front top' is several views: give the option once for each"),
         ("vorne", "'vorne' is none of front, back, left, right, top, bottom, iso, iso-se"),
         ("front,1,2", "'front,1,2' is neither a name such as iso nor three numbers"),
     ],
@@ -29,6 +30,16 @@ def test_a_model_in_place_of_the_command(hlr_real):
 def test_names_of_views(hlr_real, view, message):
     done = hlr_real("draw", BOX, "-o", "a.svg", "--view", view)
     assert (done.code, done.out) == (2, "") and message in done.err
+
+
+def test_an_option_that_takes_one_view(hlr_real):
+    done = hlr_real("methods", BOX, "--view", "front,top")
+    assert (done.code, done.out) == (2, "") and "'front,top' is several views: give one of them" in done.err
+
+
+def test_names_of_several_views_in_python():
+    with pytest.raises(hlr.ViewError, match=r"^no view is called 'front,top': draw_views draws several\.$"):
+        hlr.draw(BOX, view="front,top")
 
 
 def test_names_of_views_in_python():
