@@ -19,6 +19,11 @@ def gear(name=None):
     return cq.Assembly(name=name).add(block(), name="hub").add(block(20), name="rim")
 
 
+def in_itself(things):
+    things.append(things)
+    return things
+
+
 def names(thing):
     return list(open_source(thing).names())
 
@@ -65,9 +70,12 @@ def test_the_values_of_a_dict_are_a_list():
             lambda: {"pot": block(), "more": {"seal": None, "lid": block(40)}, "bolts": [block(20), None]},
             ['Part "more/seal" is None and was left out.', 'Part "bolts/2" is None and was left out.'],
         ),
+        (lambda: {"pot": block(), "bolts": []}, ['Part "bolts" is empty and was left out.']),
+        (lambda: [{}, block()], ["Item 1 of the list is empty and was left out."]),
+        (lambda: {"pot": block(), "seals": [None]}, ['Part "seals/1" is None and was left out.']),
     ],
 )
-def test_none_is_left_out_with_a_warning(thing, wanted):
+def test_none_and_what_is_empty_is_left_out_with_a_warning(thing, wanted):
     notes = open_source(thing()).notes
     assert [note.text for note in notes] == wanted
     assert all(note.is_warning for note in notes)
@@ -80,6 +88,11 @@ def test_none_is_left_out_with_a_warning(thing, wanted):
         (lambda: (each for each in [block()]), "generator cannot be drawn: it can be read only once"),
         (dict, "it holds no shapes"),
         (lambda: {"lid": None}, "it holds no shapes"),
+        (list, "it holds no shapes"),
+        (lambda: [None, []], "it holds no shapes"),
+        (lambda: {"lid": block(), "more": {"width": 3.0}}, "float in it is no CAD object"),
+        (lambda: in_itself([block()]), "list in it holds itself"),
+        (lambda: [block(), in_itself([])], "list in it holds itself"),
         (lambda: {"lid": block(), "width": 3.0}, "float in it is no CAD object"),
         (lambda: [block(), "pot.step"], "str in it is no CAD object"),
     ],
@@ -98,3 +111,20 @@ def test_a_script_may_show_a_dict(tmp_path):
     source = open_source(script)
     assert list(source.names()) == ["lid", "pot"]
     assert [note.text for note in source.notes if note.is_warning] == ['Part "seal" is None and was left out.']
+
+
+@pytest.mark.parametrize(
+    ("parts", "wanted"),
+    [
+        ("{'lid': lid, 'pot': pot}", ["lid", "pot"]),
+        ("[lid, [pot, None]]", ["lid", "pot"]),
+        ("{'lid': lid, 'key': cq.Workplane().box(1, 1, 1)}", ["key", "lid", "pot"]),
+    ],
+)
+def test_show_all_shows_what_is_in_a_dict_once(tmp_path, parts, wanted):
+    script = tmp_path / "pot.py"
+    script.write_text(
+        "import cadquery as cq\nfrom ocp_vscode import show_all\n"
+        f"lid, pot = cq.Workplane().box(9, 9, 1), cq.Workplane().box(5, 5, 5)\nparts = {parts}\nshow_all()\n"
+    )
+    assert sorted(open_source(script).names()) == wanted

@@ -21,18 +21,36 @@ def items_of(thing: Any) -> list[Any]:
     return list(thing.values() if isinstance(thing, Mapping) else thing)
 
 
-def nones_in(thing: Any, where: str = "") -> Iterator[Note]:
-    """A warning for each None in a list or a dict. where: the keys and numbers of what this is in."""
+def is_nothing(thing: Any, within: tuple[int, ...] = ()) -> bool:
+    """Whether it is None, or a list or a dict with nothing but such in it. within: ids of what it is in."""
+    if thing is None:
+        return True
+    if not is_collection(thing) or id(thing) in within:
+        return False
+    return all(is_nothing(item, (*within, id(thing))) for item in items_of(thing))
+
+
+def things_in(thing: Any, within: tuple[int, ...] = ()) -> Iterator[Any]:
+    """What is in a list or a dict and in those inside of it; of anything else itself. within: ids of what it is in."""
+    if not is_collection(thing):
+        yield thing
+    elif id(thing) not in within:
+        for item in items_of(thing):
+            yield from things_in(item, (*within, id(thing)))
+
+
+def left_out_of(thing: Any, where: str = "") -> Iterator[Note]:
+    """A warning for each None, and each empty list or dict, in one. where: the keys and numbers of what this is in."""
     if not is_collection(thing):
         return
     pairs = thing.items() if isinstance(thing, Mapping) else enumerate(thing, 1)
     for key, item in pairs:
         path = f"{where}/{key}" if where else str(key)
-        if item is None:
+        if item is None or (is_collection(item) and not len(item)):
             what = f'Part "{path}"' if isinstance(thing, Mapping) or where else f"Item {key} of the list"
-            yield Note("part-left-out", f"{what} is None and was left out.")
+            yield Note("part-left-out", f"{what} is {'None' if item is None else 'empty'} and was left out.")
         else:
-            yield from nones_in(item, path)
+            yield from left_out_of(item, path)
 
 
 def renamed(leaves: list[Leaf], own: str, key: str) -> list[Leaf]:
@@ -53,10 +71,18 @@ def why_not_read(thing: Any, is_read: Callable[[Any], bool]) -> str | None:
         return "it has no order: pass a list, or a dict of names and shapes"
     if isinstance(thing, Iterator):
         return "it can be read only once: pass a list of what it gives"
-    items = [] if not is_collection(thing) else [item for item in items_of(thing) if item is not None]
-    if not isinstance(thing, Mapping) and not any(map(is_read, items)):
-        return None
-    if not items:
+    if is_nothing(thing) and thing is not None:
         return "it holds no shapes"
-    bad = next(type(item).__name__ for item in items if not is_read(item))
-    return f"{bad} in it is no CAD object, as all that it holds must be"
+    if not isinstance(thing, Mapping) and not (is_collection(thing) and any(map(is_read, items_of(thing)))):
+        return None
+    return _unread(thing, is_read, (id(thing),))
+
+
+def _unread(thing: Any, is_read: Callable[[Any], bool], within: tuple[int, ...]) -> str:
+    """What in a list or a dict, or in those inside of it, cannot be drawn. within: ids of it and of what it is in."""
+    bad = next(item for item in items_of(thing) if not is_nothing(item) and not is_read(item))
+    if id(bad) in within:
+        return f"{type(bad).__name__} in it holds itself"
+    if is_collection(bad):
+        return _unread(bad, is_read, (*within, id(bad)))
+    return f"{type(bad).__name__} in it is no CAD object, as all that it holds must be"

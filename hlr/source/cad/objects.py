@@ -9,7 +9,7 @@ from typing import Any
 from hlr.common.types import Color
 from hlr.errors import SourceError
 from hlr.source.cad.brep_source import BrepSource
-from hlr.source.cad.collected import is_collection, items_of, nones_in, renamed
+from hlr.source.cad.collected import is_collection, is_nothing, items_of, left_out_of, renamed
 from hlr.source.cad.colors import color_of_wrapper
 from hlr.source.cad.occt_import import load_occt
 from hlr.source.cad.parts import Leaf
@@ -22,7 +22,7 @@ from hlr.tables.readers import what_to_pass
 def open_object(thing: Any, name: str = "") -> BrepSource:
     """A shape, a workplane, an assembly, a builder, a list of these, or a dict that gives them names.
 
-    None in a list or a dict, as an optional part is, is left out with a warning.
+    None in a list or a dict, as an optional part is, is left out with a warning; so is an empty list or dict.
 
     Raises:
         SourceError: it is none of them, or holds nothing to draw.
@@ -32,11 +32,14 @@ def open_object(thing: Any, name: str = "") -> BrepSource:
     leaves = to_leaves(thing, "part")
     if not leaves:
         raise SourceError(f"{label} holds no shapes: there is nothing to draw.")
-    return build_source(label, "object", leaves, list(nones_in(thing)))
+    return build_source(label, "object", leaves, list(left_out_of(thing)))
 
 
-def is_shape_like(thing: Any) -> bool:
-    """Whether `to_leaves` accepts an object; judged by type and attributes, without importing any CAD package."""
+def is_shape_like(thing: Any, within: tuple[int, ...] = ()) -> bool:
+    """Whether `to_leaves` accepts an object; judged by type and attributes, without importing any CAD package.
+
+    within: ids of the lists and dicts that it is in; one that holds itself is not accepted
+    """
     package = package_of(thing)
     if package == "cadquery":
         return _is_instance_of(thing, "Workplane", "Shape", "Assembly", "Sketch")
@@ -44,8 +47,10 @@ def is_shape_like(thing: Any) -> bool:
         return _wrapped(thing) is not None or _is_instance_of(thing, "Shape", "Builder", "ShapeList")
     if package == "OCP":
         return _is_instance_of(thing, "TopoDS_Shape")
-    items = [item for item in items_of(thing) if item is not None] if is_collection(thing) else []
-    return bool(items) and all(map(is_shape_like, items))
+    if not is_collection(thing) or id(thing) in within:
+        return False
+    items = [item for item in items_of(thing) if not is_nothing(item)]
+    return bool(items) and all(is_shape_like(item, (*within, id(thing))) for item in items)
 
 
 def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float = 1.0) -> list[Leaf]:

@@ -27,7 +27,7 @@ from hlr.drawing.notes import Note
 from hlr.errors import OptionError, SourceError
 from hlr.request.options import Parameter
 from hlr.source.cad.brep_source import BrepSource
-from hlr.source.cad.collected import nones_in
+from hlr.source.cad.collected import is_collection, left_out_of, things_in
 from hlr.source.cad.colors import ColorOpacity
 from hlr.source.cad.objects import is_shape_like, to_leaves
 from hlr.source.cad.occt_import import import_failure_message, load_occt
@@ -70,7 +70,7 @@ def open_script(path: Path, var: str | None = None, parameters: Mapping[str, Par
         raise SourceError(_nothing_shown(path, values, [type(thing).__name__ for thing, _, _ in chosen]))
     if left_out:
         why += f", without what is no shape ({', '.join(left_out)})"
-    missing = [note for thing, _, _ in chosen for note in nones_in(thing)]
+    missing = [note for thing, _, _ in chosen for note in left_out_of(thing)]
     return build_source(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}."), *missing])
 
 
@@ -122,14 +122,26 @@ def _shapes(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def _most_solid(values: dict[str, Any]) -> dict[str, Any]:
-    """Of the variables that are shapes those with solids, else those with faces, else all; each object once."""
+    """Of the variables that are shapes those with solids, else those with faces, else all; each object once.
+
+    A list or a dict of what other variables hold is left out, and so is a variable that holds what another one has.
+    """
     found: dict[int, list[str]] = {}
     for name, thing in _shapes(values).items():
         found.setdefault(_rank(thing), []).append(name)
     once: dict[int, str] = {}
     for name in found[min(found)] if found else ():
         once.setdefault(id(values[name]), name)
-    return {name: values[name] for name in once.values()}
+    single = {own for own, name in once.items() if not is_collection(values[name])}
+    inside = {own: _ids_in(values[name]) for own, name in once.items() if own not in single}
+    taken = {own for own, ids in inside.items() if ids <= single}
+    taken |= {own for ids in inside.values() if not ids <= single for own in ids}
+    return {name: values[name] for own, name in once.items() if own not in taken}
+
+
+def _ids_in(thing: Any) -> set[int]:
+    """Ids of what is in a list or a dict, and in those inside of it."""
+    return {id(each) for each in things_in(thing) if each is not None}
 
 
 def _is_shape(value: Any) -> bool:
