@@ -68,6 +68,10 @@ class Pattern:
         across = self.spacing * np.array([-along[1], along[0]])
         return Row(0.5 * across, along, across, ())
 
+    def meets(self, corners: Floats) -> bool:
+        """Whether a face with these corners (n, 2) is so wide across the lines that one meets it."""
+        return float(np.ptp(corners @ self.row().offset)) >= self.spacing**2
+
     def like(self, other: Pattern) -> bool:
         """Whether one can hardly tell it from another."""
         wide, narrow = max(self.spacing, other.spacing), min(self.spacing, other.spacing)
@@ -99,8 +103,12 @@ def patterns_on_sheet(sections: Sequence[Mapping[str, Sequence[Floats]]], paper:
         least = across[name] / MOST_ACROSS
         usual = _usual(areas[name], paper)
         choices = [Pattern(angle, max(_stepped(usual, steps), least)) for angle, steps in CANDIDATES]
+        usuals = choices[:2]
+        # Lines that may miss a small face are not for it, or it would look as if it were not cut.
+        faces = [np.concatenate(list(parts[name])) for parts in sections if name in parts]
+        choices = [own for own in choices if all(map(own.meets, faces))] or choices
         # Best is another direction; where neighbours have both, another spacing.
-        turned = [own for own in choices[:2] if all(own.angle != other.angle for other in near)]
+        turned = [own for own in usuals if all(own.angle != other.angle for other in near)]
         apart = [own for own in choices if not any(map(own.like, near))]
         # Where there are more neighbours than patterns, it is like as few of them as can be.
         fewest = min(choices, key=lambda own: sum(map(own.like, near)))

@@ -179,3 +179,12 @@ def test_the_smallest_section_has_a_few_lines():
     found = patterns_on_sheet([large, small], A4)["a"]
     assert found == Pattern(45.0, 1.0)
     assert len(hatched(small["a"], found, 0.1)) >= 3
+
+
+def test_small_parts_that_all_touch_have_lines_that_do_not_miss_them():
+    wheel = {}
+    for k in range(18):
+        ends = [np.pi / 9.0 * (k + j) for j in (0, 1)]
+        wheel[f"{k:02}"] = [np.array([(0.0, 0.0), *((3.0 * np.cos(end), 3.0 * np.sin(end)) for end in ends)])]
+    found = patterns_of(wheel, A4)
+    assert all(len(hatched(wheel[name], pattern, 0.1)) for name, pattern in found.items())
