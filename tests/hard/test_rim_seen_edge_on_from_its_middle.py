@@ -13,8 +13,8 @@ import hlr
 from support.at_size import AT_SIZE
 
 RADIUS, HEIGHT = 10.0, 30.0
-NEAR = 0.005
-"""A tenth of the accuracy: the last of a rim's samples may lie that far from its end."""
+NEAR = 1e-6
+"""A rim ends where its circle turns back, not at the last corner of the mesh before that place."""
 
 
 def rims(drawing):

@@ -100,6 +100,9 @@ pub const OUTLINE_VALLEY: f64 = 5.0;
 pub const CURVE_FIT: f64 = 0.05;
 /// Of the accuracy: a curve that bulges less is drawn as a straight line. Writers round by more.
 pub const CURVE_STRAIGHT: f64 = 0.05;
+/// Of the accuracy: how far beyond the end of its line a curve that is seen edge-on may turn back. The line began at a
+/// corner of the mesh, and chords are as far from the curve as the deflection.
+pub const CURVE_TURN: f64 = 0.5;
 /// Of the accuracy: an end of a line this close to the end of its curve is that end.
 pub const CURVE_END: f64 = 0.02;
 /// Of the accuracy: how far a line may be from its curve between two vertices, where the mesh is off by more than at

@@ -2,8 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::ROUNDING;
-use super::plane::Plane;
+use super::plane::{Plane, ROUNDING};
 use crate::explore::Part;
 use crate::geometry::vector::{Vector, length, sub};
 use crate::tessellate::MeshedFace;

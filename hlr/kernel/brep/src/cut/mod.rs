@@ -43,14 +43,12 @@ use divided_body::DividedBody;
 use edge_pieces::extremes;
 use hlr_accuracy::CUT_BULGE;
 pub use plane::Plane;
+use plane::ROUNDING;
 
 /// Of the size of a body: chord error of the coarse mesh.
 const COARSE: f64 = 1e-4;
 /// Radians from chord to chord of that mesh.
 const COARSE_ANGLE: f64 = 0.2;
-
-/// Of the size of a body: how far places may differ by rounding alone.
-const ROUNDING: f64 = 1e-13;
 
 /// Why a part is not cut whose faces are triangles alone.
 pub const BARE: &str = "its faces are triangles without surfaces";

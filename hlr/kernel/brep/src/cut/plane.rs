@@ -2,6 +2,9 @@
 
 use crate::geometry::vector::{Vector, along, cross, dot, unit};
 
+/// Of the size of a body: how far places may differ by rounding alone.
+pub(super) const ROUNDING: f64 = 1e-13;
+
 /// What lies on the side to which `normal`, of length 1, points is taken away.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane {
