@@ -33,7 +33,7 @@ const SHORT_HIDDEN: f64 = 3.0 * COVER_CROSSING;
 /// A side, with the number of the vertex where it begins.
 type Numbered = (usize, Side);
 
-/// Lets a closed line that runs back over itself begin at a turn, and leaves what runs back at the ends of an open one out.
+/// Lets a closed line that runs back over itself begin at a turn. Leaves out what runs back at the ends of an open one.
 pub fn begin_at_a_turn(line: &mut Polyline, widths: Widths) {
     if !runs_back(line) {
         return;
