@@ -16,7 +16,7 @@ from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
 from hlr.scene.clash import Clashes, find_clashes, self_intersecting_parts
 from hlr.scene.creases import creases
-from hlr.scene.duplicates import without_duplicates
+from hlr.scene.duplicates import without_duplicates, without_flat_wedges
 from hlr.scene.intersection_lines import intersection_lines
 from hlr.scene.needles import reliable_normals
 from hlr.scene.repeats import Looks, without_repeats
@@ -122,10 +122,11 @@ def _repaired(whole: PartMeshes, plan: Planner) -> tuple[PartMeshes, MeshFacts, 
         changed = {}
         for i in some:
             before = whole[i]
-            part, staying = without_duplicates(before, triangles[i], places[i])
-            doubled[i] = len(before.triangles) - len(staying)
-            if doubled[i]:
-                changed[i] = Fewer(staying, part.edge_nodes)
+            solid, thick = without_flat_wedges(before)
+            part, staying = without_duplicates(solid, triangles[i], places[i])
+            doubled[i] = len(solid.triangles) - len(staying)
+            if len(staying) < len(before.triangles):
+                changed[i] = Fewer(thick[staying], part.edge_nodes)
         if changed:
             whole = with_fewer_triangles(whole, changed)
             mesh = _facts(whole)

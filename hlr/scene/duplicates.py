@@ -10,6 +10,7 @@ import numpy.typing as npt
 from hlr.common.distinct import distinct
 from hlr.common.types import Floats, Ints
 from hlr.scene.duplicate_triangles import row_numbers, unique_triangles
+from hlr.scene.flat_wedges import flat_wedges
 from hlr.source.model import PartMesh
 
 Indices = npt.NDArray[np.intp]
@@ -33,6 +34,12 @@ def without_duplicates(part: PartMesh, triangles: bool = True, places: bool = Tr
         part, kept = _without_repeated_faces(part)
         staying = staying[kept]
     return part, staying
+
+
+def without_flat_wedges(part: PartMesh) -> tuple[PartMesh, Indices]:
+    """The part without wedges that have no thickness, and the numbers (n,) of the triangles that stay, ascending."""
+    kept = ~flat_wedges(part.triangles, part.triangle_face, len(part.points))
+    return _with_triangles(part, kept), np.flatnonzero(kept)
 
 
 def _without_repeated_triangles(part: PartMesh) -> tuple[PartMesh, Kept]:
