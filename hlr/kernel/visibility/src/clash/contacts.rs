@@ -8,11 +8,13 @@ use super::reach::Vec3;
 use super::search::Clash;
 use hlr_accuracy::{CONTACT_REAL, INTERSECTION_SHALLOW};
 use hlr_mesh::topology::components;
-use hlr_mesh::vector::sub;
+use hlr_mesh::vector::{dot, sub};
 
 /// Longest gap to close, in units of the square root of (contact tolerance times the smaller part's size). Surfaces
 /// with that size as radius, tangent at a point, differ by less than the tolerance over 2.8 of these units.
 const BRIDGE: f64 = 4.0;
+/// Cosine of the largest angle at which a gap goes on with the line that it continues.
+const ONWARD: f64 = 0.25;
 /// In sizes of the triangles involved. A figure in which a solid meets itself and that is no larger than this comes
 /// from the tessellation, not from the shape: triangles around one point of a curved face cross one another.
 const SMALL: f64 = 2.0;
@@ -134,21 +136,23 @@ fn crossing(bodies: &Bodies, all: &[Candidate], nodes: &Nodes, points: &[Vec3], 
         deepest[f] = deepest[f].max(all[i].depth.beyond);
         certain[f] |= all[i].depth.certain >= 0.0;
     }
-    let mut held = vec![false; nodes.count];
+    let mut arms: Vec<Arm> = Vec::new();
     for (&i, &f) in sure.iter().zip(&figure).filter(|(_, f)| deepest[**f] >= 0.0) {
         out[i] = true;
         // The rims of a shaft in its bore, both of coarse facets, are shallow figures: between them facets cross all along
         // the shaft, and that is no line.
-        nodes.of[i].iter().for_each(|&n| held[n as usize] |= certain[f]);
+        if certain[f] {
+            let [a, b] = nodes.of[i];
+            let [from, to] = all[i].segment.ends.map(|end| points[end as usize]);
+            arms.extend([Arm { node: a, at: from, far: to }, Arm { node: b, at: to, far: from }]);
+        }
     }
+    arms.sort_by_key(|arm| arm.node);
     let (bridge, count) = figures(nodes, &slight);
     let extent = extents(all, &slight, &bridge, count, points);
-    let (mut holds, mut deepest) = (vec![0; count], vec![0.0f64; count]);
+    let held = continued(all, nodes, (&slight, &bridge, count), &arms);
+    let mut deepest = vec![0.0f64; count];
     for (&i, &f) in slight.iter().zip(&bridge) {
-        for &n in &nodes.of[i] {
-            // Counted once per node: a node belongs to one figure.
-            holds[f] += u32::from(std::mem::take(&mut held[n as usize]));
-        }
         // Rounding makes faces in one plane cross everywhere. That joins lines over any distance, but is nowhere
         // deep.
         deepest[f] = deepest[f].max(all[i].depth.level / all[i].depth.touch);
@@ -156,10 +160,63 @@ fn crossing(bodies: &Bodies, all: &[Candidate], nodes: &Nodes, points: &[Vec3], 
     for (&i, &f) in slight.iter().zip(&bridge) {
         let size = all[i].segment.groups.iter().map(|&g| width[g]).fold(f64::INFINITY, f64::min);
         let gap = BRIDGE * (all[i].depth.touch * size).sqrt();
-        out[i] = holds[f] > 1 && deepest[f] >= CONTACT_REAL && extent[f] < gap;
+        out[i] = held[f] && deepest[f] >= CONTACT_REAL && extent[f] < gap;
     }
     all.iter().zip(&mut out).for_each(|(c, out)| *out &= !c.depth.flush(c.sine, bodies.deflection));
     out
+}
+
+/// A segment of a real line, seen from one of its ends.
+struct Arm {
+    node: i32,
+    at: Vec3,
+    far: Vec3,
+}
+
+/// Per figure of slight segments: whether it lies between two nodes of real lines and continues one of them. chosen: the
+/// segments, the figure of each, and the number of figures. arms: sorted by their nodes.
+///
+/// ```text
+///   ---.         .---                 |              The lines go on through a gap at a tangent point, but a line along
+///       ` . . . '                -----+. . . . . .   a shaft, where its facets cross those of the bore, begins square to
+///      continues                      |  does not    the rim.
+/// ```
+fn continued(
+    all: &[Candidate],
+    nodes: &Nodes,
+    (chosen, figure, count): (&[usize], &[usize], usize),
+    arms: &[Arm],
+) -> Vec<bool> {
+    let arms_at = |node: i32| {
+        let first = arms.partition_point(|arm| arm.node < node);
+        arms[first..].iter().take_while(move |arm| arm.node == node)
+    };
+    // A node belongs to one figure.
+    let mut held: Vec<(i32, usize, f64)> = Vec::new();
+    for (&i, &f) in chosen.iter().zip(figure) {
+        let meets = |node: &i32| arms_at(*node).next().is_some();
+        held.extend(nodes.of[i].into_iter().filter(meets).map(|node| (node, f, all[i].depth.touch)));
+    }
+    held.sort_by_key(|&(node, ..)| node);
+    held.dedup_by_key(|(node, ..)| *node);
+    let at = |node: i32| arms_at(node).next().map_or([0.0; 3], |arm| arm.at);
+    let (mut sum, mut number) = (vec![[0.0; 3]; count], vec![0.0; count]);
+    for &(node, f, _) in &held {
+        sum[f] = [0, 1, 2].map(|k| sum[f][k] + at(node)[k]);
+        number[f] += 1.0;
+    }
+    let mut found = vec![false; count];
+    for &(node, f, touch) in held.iter().filter(|&&(_, f, _)| number[f] > 1.0) {
+        let here = at(node);
+        let others = [0, 1, 2].map(|k| (sum[f][k] - here[k]) / (number[f] - 1.0));
+        let ahead = sub(&others, &here);
+        let onward = |arm: &Arm| {
+            let way = sub(&here, &arm.far);
+            dot(&way, &ahead) >= ONWARD * (dot(&way, &way) * dot(&ahead, &ahead)).sqrt()
+        };
+        found[f] |= dot(&ahead, &ahead) <= touch * touch || arms_at(node).any(onward);
+    }
+    found
 }
 
 /// Per figure of chosen segments: the longest side of its bounding box.
@@ -222,7 +279,12 @@ mod tests {
     /// Two walls, `wall` deep in a floor, and a segment between them in which faces meet at no angle, `level` deep. Up to
     /// `certain` a wall only touches the floor in some views.
     fn found(level: f64, wall: f64, certain: f64) -> Vec<Segment> {
-        let points = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+        between([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]], level, wall, certain)
+    }
+
+    /// The same, of walls from these points to the ends of the gap at x = 1 and x = 2.
+    fn between([a, b]: [Vec3; 2], level: f64, wall: f64, certain: f64) -> Vec<Segment> {
+        let points = [a, b, [2.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
         let edges = Edges { edges: &[], offsets: &[0], incident: &[] };
         let sheet = Sheet::new(&points, (&[[0, 1, 2]; 2], &[[0.0, 0.0, 1.0]; 2]), (edges, &[]));
         let (planes, touch) = (Planes::default(), [1.0; 2]);
@@ -250,6 +312,13 @@ mod tests {
     fn a_gap_between_lines_is_closed_where_it_is_deeper_than_rounding() {
         assert_eq!(found(0.05, 5.0, FORGIVEN).len(), 3);
         assert_eq!(found(1e-7, 5.0, FORGIVEN).len(), 2);
+    }
+
+    #[test]
+    fn between_lines_square_to_it_no_gap_is_closed() {
+        let walls = |a: f64, b: f64| between([[1.0 - a, 2.0, 0.0], [2.0 + b, 2.0, 0.0]], 0.05, 5.0, FORGIVEN).len();
+        assert_eq!((walls(0.0, 0.0), walls(0.3, 0.3)), (2, 2));
+        assert_eq!((walls(1.0, 1.0), walls(0.0, 1.0)), (3, 3), "one of them goes on");
     }
 
     #[test]
