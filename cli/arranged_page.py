@@ -41,7 +41,7 @@ ARRANGE = (
         type=FieldText(),
         metavar="FIELD=TEXT",
         multiple=True,
-        callback=as_table(),
+        callback=as_table,
         help="--template: the text for one of its fields; may be repeated. The scale is filled in.",
     ),
     click.option(

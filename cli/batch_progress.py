@@ -22,9 +22,6 @@ if TYPE_CHECKING:
     from hlr.batch.job import Outcome
     from hlr.batch.plan import Plan
 
-_PERIOD_S = 0.1
-"""Seconds between two pictures of the live display."""
-
 
 class Lines:
     """A line for each source that was drawn, on standard error. quiet: for failures only."""

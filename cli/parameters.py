@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, cast
@@ -185,22 +184,16 @@ class FieldText(click.ParamType[tuple[str, str]]):
         return key.strip(), text
 
 
-def as_table(cure: str = "give it once") -> Callable[..., dict[str, Any] | None]:
-    """A callback for an option that may be repeated, each time with a name: the values by name; None: there are none.
+def as_table(_ctx: click.Context, option: click.Parameter, given: tuple[tuple[str, Any], ...]) -> dict[str, Any] | None:
+    """Callback of an option that may be repeated, each time with a name: the values by name; None: there are none.
 
-    It raises OptionError where a name is given twice; cure: what the message says then.
+    Raises OptionError where a name is given twice.
     """
-
-    def table(
-        _ctx: click.Context, option: click.Parameter, given: tuple[tuple[str, Any], ...]
-    ) -> dict[str, Any] | None:
-        names = [name for name, _ in given]
-        twice = next((name for name in names if names.count(name) > 1), None)
-        if twice is not None:
-            raise OptionError(f"{option.opts[0]} gives {twice} twice: {cure}")
-        return dict(given) or None
-
-    return table
+    names = [name for name, _ in given]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise OptionError(f"{option.opts[0]} gives {twice} twice: give it once")
+    return dict(given) or None
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hlr.errors import OptionError
+from hlr.request.accuracy import DEFAULT_ACCURACY
 from hlr.request.concerns import OF_SOURCES
 from hlr.request.directions import EYE, NAMED
+from hlr.request.options import CREASE
 
 from .parameters import (
     Duration,
@@ -104,7 +106,7 @@ PARAMETERS = click.option(
     type=ScriptParameter(),
     metavar="NAME=VALUE",
     multiple=True,
-    callback=as_table(),
+    callback=as_table,
     help="Scripts: set a variable that the script sets to a plain value. May be repeated.",
 )
 
@@ -142,14 +144,14 @@ CARE = (
         "--accuracy",
         type=Number(0.0, above=True),
         metavar="MM",
-        help="Largest error of a line on paper. Default: 0.05, less for small drawings.",
+        help=f"Largest error of a line on paper. Default: {DEFAULT_ACCURACY:g}, less for small drawings.",
     ),
     click.option(
         "--crease",
         type=Number(0.0, 180.0),
         metavar="DEG",
-        default=30.0,
-        help="Meshes: angle between two triangles from which an edge is drawn. Default: 30.",
+        default=CREASE,
+        help=f"Meshes: angle between two triangles from which an edge is drawn. Default: {CREASE:g}.",
     ),
 )
 

@@ -9,6 +9,7 @@ import click
 from hlr.common.columns import columns, left, right
 from hlr.common.numbers import typed
 from hlr.common.printable import printable
+from hlr.request.options import CREASE
 
 from ..guard import start
 from ..meter import meter
@@ -31,8 +32,8 @@ _LONGEST_NAME = 40
     "--crease",
     type=Number(0.0, 180.0),
     metavar="DEG",
-    default=30.0,
-    help="Meshes: angle between two triangles from which there is an edge. Default: 30.",
+    default=CREASE,
+    help=f"Meshes: angle between two triangles from which there is an edge. Default: {CREASE:g}.",
 )
 @click.option("--var", metavar="NAME", help="Scripts: the variable to look at, instead of what the script shows.")
 @PARAMETERS

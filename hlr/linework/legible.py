@@ -28,7 +28,6 @@ from hlr.drawing.pens import LINE_GROUPS, widths_of
 from hlr.drawing.scale import ratio
 from hlr.request.drawing_effects import LEGIBILITY
 from hlr.request.effect import Planner
-from hlr.request.options import Options
 from hlr.request.style import Style
 from hlr.tables.line_classes import in_drawing_order
 from hlr.tables.sheets import standard_scale_from
@@ -94,7 +93,6 @@ def legible(
     accuracy: float,
     style: Style,
     sheet: tuple[float, float],
-    options: Options,
     planner: Planner,
 ) -> Legible:
     """The lines of one view that the pens of a style can show.

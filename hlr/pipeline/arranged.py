@@ -278,7 +278,7 @@ def _together(
     paper, style = found.room.paper, style_of(options.style)
     coarsest = max((drawing.accuracy for drawing in drawings), key=lambda accuracy: accuracy.used)
     room = (paper.width, paper.height)
-    shown = legible(lines, found.scale, coarsest.used, style, room, options, Planner(drawing_effects(), options))
+    shown = legible(lines, found.scale, coarsest.used, style, room, Planner(drawing_effects(), options))
     marks: dict[str, SectionMark] = {}
     marking: list[Note] = []
     if options.section is not None:

@@ -65,7 +65,7 @@ def finished(
     sheet = _sheet(placement, window, lines)
     accuracy = placement.tolerances.accuracy
     style = style_of(options.style)
-    shown = legible(lines, placement.scale, accuracy, style, sheet, options, planner)
+    shown = legible(lines, placement.scale, accuracy, style, sheet, planner)
     lines = shown.lines
     fill: Fill | None = None
     if plan.fill:

@@ -110,7 +110,7 @@ def draw_within(
     accuracy: float | None = first
     while accuracy is not None:
         begun = perf_counter()
-        watch = _Watch(progress, passes[-1], accuracy, begun, started + budget) if passes else progress
+        watch = _Watch(progress, passes[-1], begun, started + budget) if passes else progress
         try:
             best = draw_views(opened, views, replace(request, accuracy=accuracy), watch, None if best else noted)
         except (_TooLong, KeyboardInterrupt, HlrError, MemoryError):
@@ -183,7 +183,6 @@ class _Watch:
         self,
         show: Progress | None,
         last: tuple[float, float, dict[str, float]],
-        accuracy: float,
         begun: float,
         deadline: float,
     ) -> None:

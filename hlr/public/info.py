@@ -9,13 +9,13 @@ from hlr.common.types import Progress
 from hlr.drawing.model_info import ModelInfo, PartReport
 from hlr.pipeline.session import Session
 from hlr.request.check import checked
-from hlr.request.options import Options, Parameter
+from hlr.request.options import CREASE, Options, Parameter
 
 
 def info(
     source: Any,
     *,
-    crease: float = 30.0,
+    crease: float = CREASE,
     progress: Progress | None = None,
     var: str | None = None,
     parameters: Mapping[str, Parameter] | None = None,

@@ -31,6 +31,10 @@ SectionLike = SectionPlace | Mapping[str, SectionPlace] | Sequence[tuple[str, Se
 """Where all views are cut, or some of them, by name; pairs where several planes cut one view."""
 
 
+CREASE = 30.0
+"""Degrees: the crease angle of meshes, unless another is asked for."""
+
+
 @dataclass(frozen=True, slots=True)
 class Perspective:
     """A perspective camera. Places are those of the world (z up), whatever units and axes the model's own file has.
@@ -116,7 +120,7 @@ class Options:
     same_scale: bool = False
     window: tuple[float, float, float, float] | None = None
     accuracy: float | None = None
-    crease: float = 30.0
+    crease: float = CREASE
     circles: bool = False
     section: SectionLike | None = field(default=None, hash=False)
     whole: ViewName | Sequence[View] = field(default=(), hash=False)

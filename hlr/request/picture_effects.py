@@ -13,7 +13,7 @@ from hlr.common.numbers import typed
 from hlr.errors import OptionError
 from hlr.request.check import checked
 from hlr.request.effect import ASKED, SCENE, Effect, Facts, Planner
-from hlr.request.options import Chosen, Options, Parameter, Perspective, Vector
+from hlr.request.options import CREASE, Chosen, Options, Parameter, Perspective, Vector
 
 MOST_PIXELS_A_SIDE = 16384
 MOST_PIXELS = 100_000_000
@@ -78,7 +78,7 @@ class PreviewOptions:
     depth: bool = False
     ids: bool = False
     smooth: bool | None = None
-    crease: float = 30.0
+    crease: float = CREASE
     accuracy: float | None = None
     up: Vector | None = None
     perspective: Perspective | None = None

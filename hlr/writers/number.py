@@ -23,8 +23,8 @@ _MAX_GRID = float(2**53)
 NOT_FINITE = "the drawing has a point that is not finite; it cannot be written"
 
 
-def decimals(accuracy: float, extent: float = 0.0, share: float = DIGITS) -> int:
-    """Fewest decimals whose rounding moves a plane point by less than `share` of `accuracy`.
+def decimals(accuracy: float, extent: float = 0.0) -> int:
+    """Fewest decimals whose rounding moves a plane point by less than the share DIGITS of `accuracy`.
 
     accuracy and extent (largest absolute coordinate) are in the unit of the numbers; at least 0, and never so many
     that `extent` would lose its last digit.
@@ -34,7 +34,7 @@ def decimals(accuracy: float, extent: float = 0.0, share: float = DIGITS) -> int
     if not math.isfinite(extent):
         raise WriteError(NOT_FINITE)
     # Half a grid step in x and in y: the point moves by at most step / sqrt(2).
-    step = accuracy * share * math.sqrt(2.0)
+    step = accuracy * DIGITS * math.sqrt(2.0)
     wanted = math.ceil(-math.log10(step) + 1e-12)
     room = math.floor(math.log10(_MAX_GRID / max(extent, 1.0)))
     return max(0, min(wanted, room, MAX_DECIMALS))

@@ -7,7 +7,6 @@ judges visibility must not share its faults.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,6 +18,7 @@ from hlr.compare.verdict.turning import turning_edges
 from hlr.drawing.drawing import Drawing
 from hlr.image.camera import Camera
 from hlr.request.accuracy import ANGLE
+from hlr.request.options import CREASE
 from hlr.scene.build import build
 from hlr.scene.scene import Scene
 from hlr.tables.line_classes import INTERIOR, EdgeClass
@@ -86,7 +86,7 @@ class TrueLines:
 
 
 def _crease(drawing: Drawing) -> float:
-    return 30.0 if drawing.request is None else drawing.request.options.crease
+    return CREASE if drawing.request is None else drawing.request.options.crease
 
 
 def _drawn(scene: Scene, image: Floats, error_mm: float) -> tuple[Ints, npt.NDArray[np.int64]]:
@@ -100,8 +100,3 @@ def _drawn(scene: Scene, image: Floats, error_mm: float) -> tuple[Ints, npt.NDAr
     kind[turning_edges(scene, image, error_mm) & surface] = EdgeClass.OUTLINE
     drawn = kind != INTERIOR
     return scene.edges[drawn], kind[drawn]
-
-
-def depth_of(length: float, per_mm: float) -> float:
-    """Millimetres in the model of a depth on paper."""
-    return length / per_mm if math.isfinite(length) and per_mm > 0.0 else length

@@ -97,11 +97,6 @@ class Properties:
         file = "" if element is None else element.get("file", "")
         return self.file(file) if file else b""
 
-    def count_of(self, name: str) -> int:
-        """How many values a list has."""
-        element = self.elements.get(name)
-        return 0 if element is None else max(0, int(_number(element.get("count", "0"))))
-
     def strings(self, name: str) -> list[str]:
         """Of a list of strings."""
         element = self.elements.get(name)

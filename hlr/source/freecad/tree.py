@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from hlr.drawing.notes import Note, NoteCode
+from hlr.drawing.notes import Note
 from hlr.source.cad.parts import Leaf
 from hlr.source.freecad.colors import Look, look_of, look_of_link
 from hlr.source.freecad.document import Document, Object
@@ -85,7 +85,7 @@ class Tree:
     def _visit(self, thing: Object, context: _Context) -> None:
         label = context.label or thing.label
         if thing.name in context.above or len(context.above) >= MAX_DEPTH:
-            self._note(f'"{label}" leads back to itself and was left out.')
+            self._leave_out(f'"{label}" leads back to itself and was left out.')
             return
         inner = replace(
             context, names=(*context.names, label), above=(*context.above, thing.name), placed=True, label=""
@@ -102,7 +102,7 @@ class Tree:
         elif "Shape" in thing.values:
             self._shape(thing, context, "/".join(inner.names))
         elif thing.type.startswith("Mesh::"):
-            self._note(f'"{label}" is a mesh and was left out: export it as STL, 3MF or OBJ to draw it.')
+            self._leave_out(f'"{label}" is a mesh and was left out: export it as STL, 3MF or OBJ to draw it.')
 
     def _members(self, names: list[str], context: _Context) -> None:
         for name in names:
@@ -145,15 +145,15 @@ class Tree:
             if name not in thing.values:
                 continue
             if other := thing.values.other_document(name):
-                self._note(f'"{label}" is kept in another document, {other}, and was left out: draw that one too.')
+                self._leave_out(f'"{label}" is kept in another document, {other}, and was left out: draw that one too.')
                 return None
             if thing.values.sub_names(name):
-                self._note(f'"{label}" is a link to a part of an object and was left out.')
+                self._leave_out(f'"{label}" is a link to a part of an object and was left out.')
                 return None
             target = self.document.objects.get(thing.values.link(name))
             if target is not None:
                 return target
-        self._note(f'"{label}" is a link to nothing and was left out.')
+        self._leave_out(f'"{label}" is a link to nothing and was left out.')
         return None
 
     def _shape(self, thing: Object, context: _Context, name: str) -> None:
@@ -167,12 +167,12 @@ class Tree:
             look = context.look or look_of((tip or thing).view)
             leaf = self.shapes.leaf(thing, name, context.place, context.placed, look)
         except ValueError as error:
-            self._note(f'"{name}" was left out: its shape {error}.')
+            self._leave_out(f'"{name}" was left out: its shape {error}.')
             return
         (self.sketches if thing.type in _SKETCHES else self.leaves).append(leaf)
 
-    def _note(self, text: str, code: NoteCode = "part-left-out") -> None:
-        note = Note(code, text)
+    def _leave_out(self, text: str) -> None:
+        note = Note("part-left-out", text)
         if note not in self.notes:
             self.notes.append(note)
 
