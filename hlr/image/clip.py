@@ -134,7 +134,46 @@ def _compact(image: Image) -> Image:
     )
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Went:
+    """Where the edges of an image went when it was cut: kept whole, shortened to a new vertex, or gone.
+
+    target   (e,) the number that each has now; -1: gone
+    swapped  (e,) whether its two ends have changed places: edges run from the lower vertex to the higher
+    loose    (k, 2) those without triangles, such as free wires; they are numbered after all others
+    """
+
+    target: Ints
+    swapped: np.ndarray
+    loose: Ints
+
+
+def _went(image: Image, inside: np.ndarray, new_vertex: Ints, edges: Ints, points: int) -> _Went:
+    """Where the edges of an image go.
+
+    inside (n,): points that are kept; new_vertex (e,): of an edge that is cut; edges (f, 2): of the triangles that are
+    left; points: how many there are now
+    """
+    a, b = image.edges[:, 0], image.edges[:, 1]
+    keep = inside[a] | inside[b]
+    ends = image.edges.copy()
+    for column, end, other in ((0, a, b), (1, b, a)):
+        cut = ~inside[end] & inside[other]
+        ends[cut, column] = new_vertex[cut]
+    low_first = np.stack([ends.min(axis=1), ends.max(axis=1)], axis=1).astype(np.int32)
+    key, known = edge_keys(low_first, points), edge_keys(edges, points)
+    at = np.searchsorted(known, key)
+    there = keep & (at < len(known))
+    there[there] = known[at[there]] == key[there]
+    loose = keep & ~there
+    target = np.full(len(image.edges), -1, np.int32)
+    target[there] = at[there]
+    target[loose] = len(edges) + np.arange(np.count_nonzero(loose), dtype=np.int32)
+    return _Went(target, ends[:, 0] > ends[:, 1], low_first[loose])
+
+
 def _cut(image: Image, height: Floats) -> Image:
+    """The part of the image at which the plane's height (n,) is not below zero."""
     inside = height >= 0.0
     a, b = image.edges[:, 0], image.edges[:, 1]
     crossing = inside[a] != inside[b]
@@ -148,28 +187,15 @@ def _cut(image: Image, height: Floats) -> Image:
 
     triangles, parent = _cut_triangles(image, inside, new_vertex, n)
     edges, offsets, incident = _kernel.edge_table(triangles, len(points))
-    # Where each old edge went: kept whole, shortened to its new vertex, or gone.
-    keep = inside[a] | inside[b]
-    ends = image.edges.copy()
-    ends[crossing & ~inside[a], 0] = new_vertex[crossing & ~inside[a]]
-    ends[crossing & ~inside[b], 1] = new_vertex[crossing & ~inside[b]]
-    low_first = np.stack([ends.min(axis=1), ends.max(axis=1)], axis=1).astype(np.int32)
-    swapped = ends[:, 0] > ends[:, 1]
-    key, known = edge_keys(low_first, len(points)), edge_keys(edges, len(points))
-    at = np.searchsorted(known, key)
-    there = keep & (at < len(known))
-    there[there] = known[at[there]] == key[there]
-    # Edges without triangles (free wires) are appended after the others.
-    loose = keep & ~there
-    target = np.full(len(image.edges), -1, np.int32)
-    target[there] = at[there]
-    target[loose] = len(edges) + np.arange(np.count_nonzero(loose), dtype=np.int32)
-    edges = np.concatenate([edges, low_first[loose]])
-    offsets = np.concatenate([offsets, np.full(np.count_nonzero(loose), offsets[-1], np.int32)])
+    went = _went(image, inside, new_vertex, edges, len(points))
+    edges = np.concatenate([edges, went.loose])
+    offsets = np.concatenate([offsets, np.full(len(went.loose), offsets[-1], np.int32)])
+    kept = went.target >= 0
 
     def moved(old: np.ndarray, fill: int) -> np.ndarray:
+        """A column of the old edges as one of the new edges; fill: of those that are new."""
         out = np.full(len(edges), fill, old.dtype)
-        out[target[keep]] = old[keep]
+        out[went.target[kept]] = old[kept]
         return out
 
     tied = np.diff(offsets) > 0
@@ -185,7 +211,7 @@ def _cut(image: Image, height: Floats) -> Image:
         true_surfaces=None,
         crossed=None,
         convex=image.convex and not crossing.any(),
-        silhouettes=_cut_silhouettes(image, crossing, t, target, moved),
+        silhouettes=_cut_silhouettes(image, crossing, t, went.target, moved),
         triangles=triangles,
         triangle_part=image.triangle_part[parent],
         triangle_group=image.triangle_group[parent],
@@ -200,7 +226,7 @@ def _cut(image: Image, height: Floats) -> Image:
         edge_kind=moved(image.edge_kind, INTERIOR),
         edge_curved=moved(image.edge_curved, 0),
         groups=image.groups.opened(open_now),
-        walks=image.walks.moved(target, swapped),
+        walks=image.walks.moved(went.target, went.swapped),
     )
 
 

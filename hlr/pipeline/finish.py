@@ -67,37 +67,19 @@ def finished(
     style = style_of(options.style)
     shown = legible(lines, placement.scale, accuracy, style, sheet, planner)
     lines = shown.lines
-    fill: Fill | None = None
-    if plan.fill:
-        from hlr.shading.fill import filled
-
-        fill = filled(
-            scene,
-            source.appearances(),
-            camera,
-            image.points,
-            placement.per_model,
-            origin,
-            placement.tolerances.accuracy,
-        )
-        planner.spent("fill", perf_counter() - started)
-        planner.revised("fill", True, f"asked for; what is seen is looked up every {fill.spacing:.2g} mm")
+    fill = _fill(source, scene, solved, planner) if plan.fill else None
     stated = drawn_view(camera)
     frame = None if window is None else Frame(stated, placement.per_model, window)
     lines, fill, empty = cut_at_window(lines, fill, frame, planner)
     empty = empty or _empty(lines, fill)
     page, misfit = (None, ()) if window is not None else page_of(placement, lines)
     counters = {**_counters(solved, lines, fill), "left_out": shown.left_out}
-    if not plan.crossings and counters["seeds"]:
-        for name in ("crossing search", "piercing search"):
-            planner.revised(name, True, "one convex body, but rounded its faces overlap in the image")
+    _tell_times(planner, plan, segments)
     # With some parts chosen, a rule may be for the others.
     names = also_called(source)
     parts = tuple([DrawnPart(p.name, p.color, p.transform, names.get(p.name, ())) for p in image.parts.labels])
     unused = () if options.only or options.hide else unused_rules(style, parts)
-    seconds = segments.found.seconds
-    for name, steps in STEPS.items():
-        planner.spent(name, sum([seconds[s] for s in steps]))
+    notes = (*source.notes, *scene.notes, *placement.notes, *misfit, *shown.notes, *empty, *unused, *remarks)
     cuts = sum([sum(planner.cost(name).values()) for name in ("near clipping", "side clipping")])
     rescued = planner.cost("rescue of faces")
     drawing = Drawing(
@@ -107,7 +89,7 @@ def finished(
         origin=origin,
         accuracy=Accuracy(
             asked=options.accuracy,
-            used=placement.tolerances.accuracy,
+            used=accuracy,
             deflection=placement.tolerances.deflection,
             contact=placement.tolerances.contact,
         ),
@@ -115,11 +97,7 @@ def finished(
         up_axis=source.frame.up,
         parts=parts,
         lines=lines,
-        notes=tuple(
-            dict.fromkeys(
-                (*source.notes, *scene.notes, *placement.notes, *misfit, *shown.notes, *empty, *unused, *remarks)
-            )
-        ),
+        notes=tuple(dict.fromkeys(notes)),
         counters={**counters, **rescued, "clipping_planes": cuts},
         timings=clock,
         fill=fill,
@@ -143,6 +121,29 @@ STEPS = {
     "piercing search": ("piercings",),
 }
 """The steps of the kernel whose times add up to that of an effect."""
+
+
+def _tell_times(planner: Planner, plan: Plan, segments: Segments) -> None:
+    """Tell the table of effects what the kernel's steps took, and which of them it ran after all."""
+    if not plan.crossings and segments.found.counters["seeds"]:
+        for name in ("crossing search", "piercing search"):
+            planner.revised(name, True, "one convex body, but rounded its faces overlap in the image")
+    seconds = segments.found.seconds
+    for name, steps in STEPS.items():
+        planner.spent(name, sum([seconds[s] for s in steps]))
+
+
+def _fill(source: Source, scene: Scene, solved: Solved, planner: Planner) -> Fill:
+    """The visible faces in their colours."""
+    from hlr.shading.fill import filled
+
+    begun = perf_counter()
+    image, placement, origin = solved.image, solved.image.placement, solved.linework.origin
+    accuracy = placement.tolerances.accuracy
+    fill = filled(scene, source.appearances(), image.camera, image.points, placement.per_model, origin, accuracy)
+    planner.spent("fill", perf_counter() - begun)
+    planner.revised("fill", True, f"asked for; what is seen is looked up every {fill.spacing:.2g} mm")
+    return fill
 
 
 def _counters(solved: Solved, lines: Sequence[Line], fill: Fill | None) -> dict[str, int]:

@@ -7,7 +7,7 @@ from time import perf_counter
 
 import numpy as np
 
-from hlr._kernel import Groups, MeshFacts, MeshScene
+from hlr._kernel import Groups, MeshFacts, MeshScene, PartTables
 from hlr.common.types import Floats
 from hlr.errors import SourceError
 from hlr.request.accuracy import REPEATED
@@ -15,7 +15,7 @@ from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
 from hlr.scene.clash import Clashes, find_clashes, self_intersecting_parts
-from hlr.scene.creases import creases
+from hlr.scene.creases import Kinds, creases
 from hlr.scene.duplicates import without_duplicates, without_flat_wedges
 from hlr.scene.intersection_lines import intersection_lines
 from hlr.scene.needles import reliable_normals
@@ -57,12 +57,7 @@ def build(
     groups = found.groups()
     walks, facets, drawn = found.walks(), None, None
     if tables.brep_parts < len(tables) and len(edges):
-        reliable = reliable_normals(mesh, points, tables.triangles, found.triangle_part, tables.precision)
-        turned = found.turned
-        facets = reliable.normals if turned is None else np.where(turned[:, None], -reliable.normals, reliable.normals)
-        crease_kind = creases(
-            mesh, tables.triangles, reliable.fold, edge_part, ~brep, crease, points, _sizes(found, groups, len(brep))
-        )
+        crease_kind, facets = _creased(tables, mesh, found, groups, crease)
         walks = walks.merged(crease_walks(points, edges, crease_kind, edge_part))
         kind = kind.copy()
         np.copyto(kind[: len(crease_kind)], crease_kind, where=crease_kind != INTERIOR)
@@ -146,6 +141,21 @@ def _stitched(whole: PartMeshes, mesh: MeshFacts, deflection: float, plan: Plann
             mesh = _facts(whole)
     plan.spent("stitching of borders", perf_counter() - begin, seams=seams)
     return whole, mesh
+
+
+def _creased(
+    tables: PartTables, mesh: MeshFacts, found: MeshScene, groups: Groups, crease: float
+) -> tuple[Kinds, Floats]:
+    """The classes (e,) of the edges of parts without B-rep, INTERIOR for all others; the normals (t, 3) of triangles.
+
+    crease: degrees
+    """
+    points, brep = tables.points, tables.brep
+    reliable = reliable_normals(mesh, points, tables.triangles, found.triangle_part, tables.precision)
+    sizes = _sizes(found, groups, len(brep))
+    kind = creases(mesh, tables.triangles, reliable.fold, found.edge_part, ~brep, crease, points, sizes)
+    turned, normals = found.turned, reliable.normals
+    return kind, normals if turned is None else np.where(turned[:, None], -normals, normals)
 
 
 def _searched(whole: PartMeshes, found: MeshScene, groups: Groups, deflection: float, plan: Planner) -> Clashes | None:
