@@ -11,7 +11,8 @@ from typing import Any
 from hlr.batch.manifest import Manifest, Rule
 from hlr.errors import OptionError, SourceError
 
-_FIELD = re.compile(r"\{(\w*)\}")
+FIELD = re.compile(r"\{(\w*)\}")
+"""A field in a text or a file name, such as {stem}."""
 
 
 def printed_of(manifest: Manifest, rule: Rule) -> dict[str, Any]:
@@ -37,7 +38,7 @@ def printed_of(manifest: Manifest, rule: Rule) -> dict[str, Any]:
 def filled_in(printed: Mapping[str, Any], fields: Mapping[str, str]) -> dict[str, Any]:
     """The same with the texts of one source: {stem} and the like stand for what they do in names of files."""
     texts = {
-        key: _FIELD.sub(lambda match: fields.get(match[1], match[0]), text)
+        key: FIELD.sub(lambda match: fields.get(match[1], match[0]), text)
         for key, text in printed.get("texts", {}).items()
     }
     return {**printed, "texts": texts} if texts else dict(printed)

@@ -11,7 +11,7 @@ from itertools import product
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from hlr.batch.arranged_page import filled_in, printed_of
+from hlr.batch.arranged_page import FIELD, filled_in, printed_of
 from hlr.batch.discover import files_named, models_under, named, takes_parameters, without
 from hlr.batch.job import Job
 from hlr.batch.manifest import Manifest, Rule
@@ -28,8 +28,6 @@ MOST_NAMED = 5
 
 REPORTS = ("manifest.json", "junit.xml", "summary.md", "code-quality.json")
 """Files of the report, in the folder of outputs."""
-
-_FIELD = re.compile(r"\{(\w*)\}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,11 +197,11 @@ def _fields(source: str, view: Any, number: int, variant: Mapping[str, Any]) -> 
 
 def _filled(manifest: Manifest, rule: Rule, template: str, fields: Mapping[str, str]) -> str:
     """The name of a file, without its ending. Raises OptionError for an unknown field, or a way out of the folder."""
-    unknown = [name for name in _FIELD.findall(template) if name not in fields]
+    unknown = [name for name in FIELD.findall(template) if name not in fields]
     if unknown:
         known = ", ".join(f"{{{name}}}" for name in fields)
         raise manifest.error((*rule.where, "name"), f"there is no field {{{unknown[0]}}}: use {known}")
-    name = PurePosixPath(_FIELD.sub(lambda match: fields[match[1]], template))
+    name = PurePosixPath(FIELD.sub(lambda match: fields[match[1]], template))
     if name.is_absolute() or ".." in name.parts or not name.name or "\\" in str(name):
         raise manifest.error((*rule.where, "name"), f"{name} leads out of the folder of outputs")
     return str(name)

@@ -11,6 +11,9 @@ from itertools import pairwise
 
 from hlr.drawing.view_marks import FONT, LETTER, Point, SectionEnd, section_ends
 
+EDGE_ON = 1e-6
+"""Sine of the angle by which the plane of a section may be turned to be seen as a line."""
+
 BEYOND = 5.0
 """Millimetres: how far a cutting line goes beyond the view, with its thick ends."""
 

@@ -17,13 +17,10 @@ from types import MappingProxyType
 from hlr.common.numbers import typed
 from hlr.errors import OptionError
 from hlr.tables.projection_methods import Cell, ProjectionMethod
-from hlr.tables.sheets import MARGIN, Paper, standard_scale
+from hlr.tables.sheets import MARGIN, SLACK, Paper, standard_scale
 
 LEAST_GAP, MOST_GAP = 10.0, 40.0
 """Millimetres between views: at least, and at most where the page has more room than they need."""
-
-SLACK = 0.1
-"""Millimetres by which the views may together be larger than the room: they are drawn within an accuracy."""
 
 TRIED = 2
 """Views of which all places are tried; each further one takes the best that is left."""

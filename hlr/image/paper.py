@@ -12,11 +12,7 @@ from hlr.common.numbers import typed
 from hlr.drawing.notes import Note
 from hlr.drawing.scale import ratio
 from hlr.request.options import Options
-from hlr.tables.sheets import SHEETS, USUAL, Paper, papers, standard_scale
-
-SLACK = 0.1
-"""Millimetres by which a drawing at a standard scale may be larger than the room inside the margins: a part whose size
-is that room should fit, though its curves are drawn within an accuracy."""
+from hlr.tables.sheets import SHEETS, SLACK, USUAL, Paper, papers, standard_scale
 
 ALIKE = 1e-9
 """Of a scale: two that differ by less are the same but for rounding."""

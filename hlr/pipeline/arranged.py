@@ -22,7 +22,7 @@ from hlr.drawing.page import Page
 from hlr.drawing.scale import ratio
 from hlr.drawing.sheet import Sheet, SheetView
 from hlr.errors import OptionError
-from hlr.image.arrangement import LEAST_GAP, SLACK, Arrangement, Room, Size, arranged, check_views, inside_margins
+from hlr.image.arrangement import LEAST_GAP, Arrangement, Room, Size, arranged, check_views, inside_margins
 from hlr.image.method_cells import cells_of
 from hlr.image.placement import size_notes
 from hlr.linework.legible import legible
@@ -37,7 +37,7 @@ from hlr.request.style_file import style_of
 from hlr.source.page_template import PageTemplate, Rectangle
 from hlr.source.selection import open_selected
 from hlr.tables.projection_methods import Cell, ProjectionMethod
-from hlr.tables.sheets import USUAL, Paper, papers
+from hlr.tables.sheets import SLACK, USUAL, Paper, papers
 
 if TYPE_CHECKING:
     from hlr.drawing.section_marks import SectionMark

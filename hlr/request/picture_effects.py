@@ -14,10 +14,7 @@ from hlr.errors import OptionError
 from hlr.request.check import checked
 from hlr.request.effect import ASKED, SCENE, Effect, Facts, Planner
 from hlr.request.options import CREASE, Chosen, Options, Parameter, Perspective, Vector
-
-MOST_PIXELS_A_SIDE = 16384
-MOST_PIXELS = 100_000_000
-"""The largest picture, which takes 400 MB while it is made."""
+from hlr.request.style_check import MOST_PIXELS, MOST_PIXELS_A_SIDE
 
 PIXELS_PER_MM = 4.0
 """A picture counts as a sheet of paper with this many pixels per millimetre: lines have their ISO 128 widths on it, and

@@ -11,6 +11,10 @@ from functools import cache, lru_cache
 MARGIN = 10.0
 """Millimetres that stay empty on each side of a sheet."""
 
+SLACK = 0.1
+"""Millimetres by which what is drawn at a standard scale, one view or several together, may be larger than the room
+inside the margins: a part whose size is that room should fit, though its curves are drawn within an accuracy."""
+
 LARGEST_SIDE = 1e7
 """Millimetres."""
 

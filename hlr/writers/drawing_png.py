@@ -12,13 +12,10 @@ from hlr.common.colors import rgb_of
 from hlr.common.numbers import typed
 from hlr.drawing.drawing import Drawing
 from hlr.errors import WriteError
-from hlr.request.style_check import DPI, MOST_PIXELS_A_SIDE
+from hlr.request.style_check import DPI, MOST_PIXELS, MOST_PIXELS_A_SIDE
 from hlr.writers.pdf import Sheet, document
 from hlr.writers.png import encoded
 from hlr.writers.strokes import Strokes, strokes
-
-MOST_PIXELS = 100_000_000
-"""Of one file; takes 800 MB while it is made."""
 
 MM_PER_INCH = 25.4
 

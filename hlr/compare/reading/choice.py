@@ -14,6 +14,9 @@ from hlr.request.options import Options, Parameter
 from hlr.tables.entry import listed
 from hlr.tables.readers import of_ending
 
+ACCURACY_SHARE = 0.2
+"""Of the tolerance: how exactly a model or a page is drawn to be compared with the drawing of another program."""
+
 
 @dataclass(frozen=True, slots=True)
 class Choice:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hlr.compare.reading.choice import Choice
+from hlr.compare.reading.choice import ACCURACY_SHARE, Choice
 from hlr.compare.reading.sides import Behind, DrawnPage
 from hlr.drawing.sheet import Sheet
 from hlr.errors import OptionError
@@ -17,9 +17,6 @@ from hlr.request.accuracy import DEFAULT_ACCURACY
 
 if TYPE_CHECKING:
     from hlr.common.types import Progress
-
-ACCURACY_SHARE = 0.2
-"""Of the tolerance: how exactly a page is drawn to be compared."""
 
 
 def with_pages(

@@ -12,7 +12,7 @@ import numpy as np
 
 from hlr.compare.lines.pieces import Pieces
 from hlr.compare.matching.match import Rule, divided_by
-from hlr.compare.reading.choice import Choice
+from hlr.compare.reading.choice import ACCURACY_SHARE, Choice
 from hlr.compare.reading.page_of_model import page_of_model
 from hlr.compare.reading.sides import Behind, Side, is_drawing, side_of
 from hlr.compare.reading.stated_view import as_stated
@@ -28,9 +28,6 @@ from hlr.tables.line_classes import LINE_CLASSES, by_number, optional
 if TYPE_CHECKING:
     from hlr.common.types import Progress
     from hlr.source.model import Source
-
-ACCURACY_SHARE = 0.2
-"""Of the tolerance: how exactly a model is drawn to be compared with the drawing of another program."""
 
 _FINEST = 1e-5
 """Of the size of the other side: a model is drawn no finer, whatever a file says of its size."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hlr.drawing.section_marks import EDGE_ON
 from hlr.drawing.view_marks import BEYOND, LETTER, border_circle, detail_circle, section_line
 from hlr.pipeline.page.placed_view import lines_on_page
 
@@ -14,9 +15,6 @@ if TYPE_CHECKING:
     from hlr.common.types import Floats
     from hlr.linework.cut_faces import CutFace
     from hlr.pipeline.page.placed_view import PlacedView
-
-EDGE_ON = 1e-6
-"""Sine of the angle by which the plane of a section may be turned to be seen as a line."""
 
 TURNS = (45.0, 135.0, 225.0, 315.0, 0.0, 90.0, 180.0, 270.0)
 """Degrees: where the letter of a detail may be placed around its circle, the usual place first."""

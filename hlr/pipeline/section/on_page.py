@@ -12,12 +12,8 @@ from hlr.common.types import Floats
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.lines import bounds_of
 from hlr.drawing.notes import Note
-from hlr.drawing.section_marks import ABOVE, BEYOND, FARTHER, TAIL, SectionMark, shapes_of
+from hlr.drawing.section_marks import ABOVE, BEYOND, EDGE_ON, FARTHER, TAIL, SectionMark, shapes_of
 from hlr.drawing.view_marks import LETTER, Point
-
-EDGE_ON = 1e-6
-"""Sine of the angle by which the plane of a section may be turned to be seen as a line."""
-
 
 WIDE = 0.75
 """Of their size: how wide letters are."""
