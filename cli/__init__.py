@@ -7,7 +7,9 @@ from typing import NoReturn
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Run the command line and end the process with its exit code: 0 done, 2 refused, 1 a fault of hlr.
+    """Run the command line and end the process with its exit code: 0 done, 2 refused, 70 a fault of hlr.
+
+    `compare` and `batch` have 1 and 3 besides, as their help texts say.
 
     arguments: None for those of the process. The process then belongs to the command, and a crash becomes an error.
     """

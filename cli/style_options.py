@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from hlr.request.styles import STYLES
+
 from .parameters import Number, Pixels
 
 if TYPE_CHECKING:
@@ -15,7 +17,7 @@ STYLE = (
     click.option(
         "--style",
         metavar="NAME|FILE",
-        help="iso, asme, thin, dark, blueprint, or a TOML file. The single options below override it. Default: iso.",
+        help=f"{', '.join(STYLES)}, or a TOML file. The single options below override it. Default: iso.",
     ),
     click.option(
         "--line-width",

@@ -57,7 +57,7 @@ def info(as_json: bool) -> None:
         show(f"{store.folder}: {_told(entries)}, {_mega(size)} of at most {_mega(store.most)}")
 
 
-@cache.command()
+@cache.command(short_help="Remove all models and drawings from the cache.")
 def clear() -> None:
     """Remove all models and drawings from the cache; other files in its folder stay."""
     from hlr.errors import WriteError

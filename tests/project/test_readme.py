@@ -6,8 +6,17 @@ from pathlib import Path
 
 import pytest
 
+import hlr
+
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = ("README.md", "hlr/docs/python.md", "hlr/docs/previews.md", "hlr/docs/drop_ins.md")
+NAMES = ("python", "previews", "drop_ins", "styles", "dxf", "compare", "CONTRIBUTING")
+PAGES = ("README.md", *(f"hlr/docs/{name}.md" for name in NAMES))
+SCRIPT = """import cadquery as cq
+
+size = 10
+show_object(cq.Workplane().box(size, 10, 10), "plate")
+show_object(cq.Workplane().cylinder(20, 3), "bolt1")
+"""
 EXAMPLES = [
     (page, text)
     for page in PAGES
@@ -20,6 +29,9 @@ def test_the_python_examples_run(tmp_path, monkeypatch):
     cq = pytest.importorskip("cadquery")
     shutil.copy(ROOT / "tests" / "data" / "as1-oc-214.stp", tmp_path / "part.step")
     monkeypatch.chdir(tmp_path)
+    Path("part.py").write_text(SCRIPT)
+    for name in ("part.dxf", "drawing.svg", "old.svg"):
+        hlr.draw("part.step", view="front").save(name)
     solid = cq.Workplane().box(30, 20, 10).faces(">Z").workplane().hole(8).val()
     names = {}
     assert {page for page, _ in EXAMPLES} == set(PAGES)
