@@ -80,7 +80,7 @@ def clashes(points: Floats, triangles: Ints, triangle_group: Ints, itself: Bools
     """Every pair of triangles that cross, of different groups, or of one group where `itself` (g,) is set.
 
     points (n, 3) and edges (m, 2) of the common segments; per segment triangles (m, 2), depth (m,): how far they reach
-    beyond each other, and sine (m,) of the angle between them; searched and tests: pairs that were counted on the way.
+    beyond each other, and sine (m,) of the angle between them; tests: pairs of triangles that were compared.
     """
 
 def limit_threads(threads: int) -> int:
@@ -114,7 +114,7 @@ class Groups:
     cull     (g,): closed, and turned outward: faces turned away need not be looked at
     inward   (g,): closed, and turned inward, as a cavity is
     sound    (g,): does not pass through itself, as far as its source tells
-    bare     (g,): a piece of a mesh without B-rep
+    without_brep (g,): a piece of a mesh without B-rep
     tight    (g,): lines that lie exactly on other groups' triangles
     planar   (g,): only planar faces: exact, except for the rounding of the file
     extent   (g,): its thickness; the smallest side of its box if that is less or it is open; model units
@@ -125,7 +125,7 @@ class Groups:
     cull: Bools
     inward: Bools
     sound: Bools
-    bare: Bools
+    without_brep: Bools
     tight: Bools
     planar: Bools
     extent: Floats

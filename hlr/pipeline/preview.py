@@ -113,14 +113,14 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
     started = lap(clock, "picture", started)
     if effects.lines:
         lines = line_options(options, None, placement.scale)
-        bare = image_of(scene, camera, placement)
+        image = image_of(scene, camera, placement)
         if effects.behind:
             planner_behind = Planner(drawing_effects(), lines)
-            behind = without_glass(outlined(bare, planner_behind), shaded.glass)
+            behind = without_glass(outlined(image, planner_behind), shaded.glass)
             drawing = session.drawing(Draft(behind, by_view(lines, camera, planner_behind), planner_behind))
             _ink(pixels, drawing, eye, [BEHIND])
         planner_lines = Planner(drawing_effects(), lines)
-        drawing = session.drawing(Draft(bare, by_view(lines, camera, planner_lines), planner_lines))
+        drawing = session.drawing(Draft(image, by_view(lines, camera, planner_lines), planner_lines))
         _ink(pixels, drawing, eye, cues(background) if effects.cued else [INK])
         lap(clock, "edges", started)
     clock["total"] = sum(clock.values())

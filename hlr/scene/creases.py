@@ -17,7 +17,7 @@ from hlr._kernel import MeshFacts
 from hlr.common.types import Floats, Ints
 from hlr.scene.fading_creases import fading_edges
 from hlr.scene.walks import STRAIGHT_ON
-from hlr.tables.line_classes import EdgeClass
+from hlr.tables.line_classes import INTERIOR, EdgeClass
 
 Bools = npt.NDArray[np.bool_]
 Kinds = npt.NDArray[np.uint8]
@@ -55,25 +55,25 @@ def creases(
     triangles: Ints,
     fold: Floats,
     edge_part: Ints,
-    bare: Bools,
+    without_brep: Bools,
     crease: float,
     points: Floats,
     sizes: Floats,
 ) -> Kinds:
-    """(e,) EdgeClass SHARP or BOUNDARY, or 255, for the edges of bare meshes, from the fold angle (degrees).
+    """(e,) the class, SHARP or BOUNDARY, of the edges of parts without B-rep; INTERIOR where an edge is no crease.
 
-    triangles (t, 3) of `mesh`; fold (e,): its cosines, as far as the coordinates support any; edge_part (e,); bare,
-    sizes: per part, the latter the diagonal of its box.
+    triangles (t, 3) of `mesh`; fold (e,): cosines of its folds, as far as the coordinates support any; edge_part (e,);
+    without_brep (p,): the parts that are looked at; crease: degrees; sizes (p,): diagonals of the boxes of parts.
     """
     sharp, near_fold = _cosine(crease - SLACK), _cosine(NEAR_FOLD * crease)
-    kind, near = _kernel.edge_kinds(mesh.offsets, fold, edge_part, bare, sharp, near_fold)
+    kind, near = _kernel.edge_kinds(mesh.offsets, fold, edge_part, without_brep, sharp, near_fold)
     kind[_gap_edges(kind, mesh.edges, near, points)] = EdgeClass.SHARP
     lone, figure = _noise_edges(kind, mesh.edges, fold, _cosine(CLEAR_FOLD * crease), len(points))
     if len(lone):
         ways = points[mesh.edges[lone, 1]] - points[mesh.edges[lone, 0]]
         long = (ways * ways).sum(axis=1) >= (LONG_EDGE * sizes[edge_part[lone]]) ** 2
         lone = lone[~np.isin(figure, figure[long])]
-    kind[lone] = 255
+    kind[lone] = INTERIOR
     kind[fading_edges(kind, mesh, triangles, fold, points)] = EdgeClass.SHARP
     return kind
 
@@ -89,7 +89,7 @@ def _gap_edges(kind: Kinds, edges: Ints, near: npt.NDArray[np.intp], points: Flo
     would draw the facets of a smooth surface. An edge that branches off a crease is not part of it: the sides of a
     prism of 14 faces end at its rims, and stay smooth.
     """
-    chosen = np.flatnonzero(kind != 255)
+    chosen = np.flatnonzero(kind != INTERIOR)
     if not len(chosen) or not len(near):
         return []
     degree = np.bincount(edges[chosen].ravel(), minlength=len(points))
@@ -135,7 +135,7 @@ def _noise_edges(kind: Kinds, edges: Ints, fold: Floats, clear_fold: float, n: i
 
     Returns the edges, and the number of the set of each.
     """
-    chosen = np.flatnonzero(kind != 255).astype(np.int32)
+    chosen = np.flatnonzero(kind != INTERIOR).astype(np.int32)
     if len(chosen) == 0:
         return chosen, chosen
     ends = edges[chosen]

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr._kernel import MeshFacts
 from hlr.common.types import Floats, Ints
-from hlr.tables.line_classes import EdgeClass
+from hlr.tables.line_classes import INTERIOR, EdgeClass
 
 LEAST_FOLD = 4.0
 """Degrees: a crease is not followed below this fold."""
@@ -124,7 +124,7 @@ class _Around:
 def fading_edges(kind: Kinds, mesh: MeshFacts, triangles: Ints, fold: Floats, points: Floats) -> list[int]:
     """Edges on which the creases go on below the crease angle, each once.
 
-    kind (e,): 255 where an edge is no crease; triangles (t, 3) of `mesh`; fold (e,): cosines; points (n, 3).
+    kind (e,): INTERIOR where an edge is no crease; triangles (t, 3) of `mesh`; fold (e,): cosines; points (n, 3).
     """
     ends = _open_ends(kind, mesh.edges, fold, points)
     if not ends:
@@ -134,7 +134,7 @@ def fading_edges(kind: Kinds, mesh: MeshFacts, triangles: Ints, fold: Floats, po
 
 
 def _open_ends(kind: Kinds, edges: Ints, fold: Floats, points: Floats) -> list[_End]:
-    chosen = np.flatnonzero(kind != 255)
+    chosen = np.flatnonzero(kind != INTERIOR)
     if not len(chosen):
         return []
     ends = edges[chosen]
@@ -161,7 +161,7 @@ def _followed(
 ) -> list[int]:
     """Follows each crease while its fold stands out. The ends move on."""
     folded = np.flatnonzero(fold < math.cos(math.radians(LEAST_FOLD / STANDS_OUT))).astype(np.int32)
-    around, on_from = (_Around(some, mesh.edges, points) for some in (folded, folded[kind[folded] == 255]))
+    around, on_from = (_Around(some, mesh.edges, points) for some in (folded, folded[kind[folded] == INTERIOR]))
     taken: set[int] = set()
     for end in ends:
         # An edge is walked once: so all walks together are no longer than the mesh has edges.
@@ -176,7 +176,7 @@ def _followed(
             near = np.concatenate([around.at(vertex)[0] for vertex in corners.tolist()])
             near = near[~np.isin(near, along)]
             # Creases that run across are no facets beside this one: the rim at which its triangles end.
-            beside = fold[near[(kind[near] == 255) | _parallel(near, edge, mesh.edges, points)]].min(initial=1.0)
+            beside = fold[near[(kind[near] == INTERIOR) | _parallel(near, edge, mesh.edges, points)]].min(initial=1.0)
             if own < STANDS_OUT * _degrees(float(beside)):
                 break
             taken.add(edge)
@@ -197,7 +197,7 @@ def _joined(ends: list[_End], kind: Kinds, edges: Ints, points: Floats) -> list[
     reached[[end.vertex for end in ends]] = True
     for _ in range(GAP_EDGES):
         reached[edges[reached[edges].any(axis=1)]] = True
-    inside = np.flatnonzero(reached[edges].all(axis=1) & (kind == 255)).astype(np.int32)
+    inside = np.flatnonzero(reached[edges].all(axis=1) & (kind == INTERIOR)).astype(np.int32)
     around = _Around(inside, edges, points)
     passing: dict[int, list[_Way]] = {}
     for end in ends:

@@ -88,7 +88,7 @@ class Geometry:
     intersections: None where no intersection line is curved.
     crossed (m, 2): the last m edges are intersection lines, and these the two triangles that cross there; None: no such
     line, or outlines and cut edges have been added since.
-    facets (t, 3): normals of bare meshes, zero where the coordinates are too coarse for one; None: all is B-rep.
+    facets (t, 3): normals of parts without B-rep, zero where the coordinates are too coarse; None: all is B-rep.
     """
 
     points: Floats

@@ -105,17 +105,17 @@ def _labels(scene: Scene) -> Ints:
     """(t,) number of each triangle's face; a mesh's faces are its triangles connected without a crease."""
     face = scene.triangle_face.astype(np.int64)
     own = scene.triangle_part.astype(np.int64) * (int(face.max()) + 1) + face
-    bare = scene.groups.bare[scene.triangle_group]
-    if bare.any():
+    without_brep = scene.groups.without_brep[scene.triangle_group]
+    if without_brep.any():
         smooth = where(lambda row: row.border and row.tangent, interior=True)[scene.edge_kind]
         inner = np.flatnonzero(smooth & (np.diff(scene.offsets) == 2))
         first = scene.offsets[:-1][inner]
         pairs = np.stack([scene.incident[first], scene.incident[first + 1]], axis=1)
-        pairs = pairs[(own[pairs[:, 0]] == own[pairs[:, 1]]) & bare[pairs].all(axis=1)]
+        pairs = pairs[(own[pairs[:, 0]] == own[pairs[:, 1]]) & without_brep[pairs].all(axis=1)]
         # Each triangle is paired with itself as well: the components of these pairs are those of the triangles.
         alone = np.arange(len(own))
         joined = np.concatenate([np.stack([alone, alone], axis=1), pairs]).astype(np.int32)
         piece = _kernel.edge_components(np.ascontiguousarray(joined), len(own))[: len(own)].astype(np.int64)
-        own = np.where(bare, int(own.max()) + 1 + piece, own)
+        own = np.where(without_brep, int(own.max()) + 1 + piece, own)
     _, label = np.unique(own, return_inverse=True)
     return np.ascontiguousarray(label.ravel(), np.int32)

@@ -22,11 +22,11 @@ LEVEL = 1e-3
 def corner_normals(scene: Geometry) -> tuple[Normals, Ints]:
     """Unit normals (k, 3), and (t, 3) the number of each corner's normal; FLAT where the triangle has its own."""
     true, of_true = _of_surfaces(scene)
-    bare = scene.groups.bare[scene.triangle_group]
-    if scene.facets is None or not bare.any():
+    without_brep = scene.groups.without_brep[scene.triangle_group]
+    if scene.facets is None or not without_brep.any():
         return true, of_true
-    averaged, of_averaged = _up_to_creases(scene, scene.facets, bare)
-    corner = np.where(bare[:, None], of_averaged + np.int32(len(true)), of_true).astype(np.int32)
+    averaged, of_averaged = _up_to_creases(scene, scene.facets, without_brep)
+    corner = np.where(without_brep[:, None], of_averaged + np.int32(len(true)), of_true).astype(np.int32)
     return np.concatenate([true, averaged]), np.ascontiguousarray(corner)
 
 
@@ -43,7 +43,7 @@ def _of_surfaces(scene: Geometry) -> tuple[Normals, Ints]:
     return normals, np.where(sound[:, None], on.corner, none)
 
 
-def _up_to_creases(scene: Geometry, facets: Floats, bare: npt.NDArray[np.bool_]) -> tuple[Normals, Ints]:
+def _up_to_creases(scene: Geometry, facets: Floats, without_brep: npt.NDArray[np.bool_]) -> tuple[Normals, Ints]:
     """Facets around a vertex that are connected without a crease share one normal.
 
     Where a vertex lies on a side of a larger facet, the needle between them counts for that facet. Each facet is
@@ -57,7 +57,7 @@ def _up_to_creases(scene: Geometry, facets: Floats, bare: npt.NDArray[np.bool_])
     inner = np.flatnonzero(smooth & (count == 2))
     first = scene.offsets[:-1][inner]
     one, two = scene.incident[first], scene.incident[first + 1]
-    mine = bare[one] & bare[two]
+    mine = without_brep[one] & without_brep[two]
     inner, one, two = inner[mine], one[mine], two[mine]
     pairs = []
     for k in (0, 1):

@@ -119,7 +119,7 @@ def test_the_check_notices(spoil):
 
 def flags(scene):
     g = scene.groups
-    return sorted(zip(g.closed.tolist(), g.cull.tolist(), g.bare.tolist(), strict=True))
+    return sorted(zip(g.closed.tolist(), g.cull.tolist(), g.without_brep.tolist(), strict=True))
 
 
 @pytest.mark.parametrize(

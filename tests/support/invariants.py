@@ -24,7 +24,7 @@ def check(scene: Scene, *, gaps: bool = False) -> None:
         ("offsets", scene.offsets, e + 1),
     ):
         assert array.shape == (count,), f"{name} has one entry each"
-    for name in ("cull", "sound", "bare", "planar", "extent", "low", "high"):
+    for name in ("cull", "sound", "without_brep", "planar", "extent", "low", "high"):
         assert len(getattr(scene.groups, name)) == groups, f"groups.{name} has one entry each"
     _within("triangles", scene.triangles, n)
     _within("triangle_part", scene.triangle_part, parts)
@@ -73,7 +73,7 @@ def _groups(scene: Scene) -> None:
     for group, part in zip(scene.triangle_group.tolist(), scene.triangle_part.tolist(), strict=True):
         assert one.setdefault(group, part) == part, "a group belongs to one part"
     assert not (groups.cull & ~groups.closed).any(), "only closed groups are culled"
-    assert not (groups.sound & groups.bare).any(), "nobody vouches for a bare mesh"
+    assert not (groups.sound & groups.without_brep).any(), "nobody vouches for a mesh without B-rep"
     a, b, c = scene.triangles.T
     for group in np.unique(scene.triangle_group).tolist():
         mine = scene.triangle_group == group

@@ -218,8 +218,8 @@ def _notes(drawing: Drawing, session: Session, cut: _Cut, name: str) -> list[Not
     are_open = {cut.source.whose[part] for part, is_cut in cut.source.open.items() if is_cut}
     at_plane = _at_plane(session, cut)
     # A body of a mesh that has no cut face only touches the plane.
-    bare = are_open if isinstance(cut.source.source, MeshSource) else cut.source.cut - hatched
-    unhatched = sorted(bare & at_plane)
+    unhatchable = are_open if isinstance(cut.source.source, MeshSource) else cut.source.cut - hatched
+    unhatched = sorted(unhatchable & at_plane)
     if cut.planes.touching:
         text = f"the plane of section {name} only touches the model: nothing is taken away."
     elif not cut.source.cut and not hatched and cut.source.through:

@@ -79,7 +79,7 @@ pub fn bodies(tables: &Tables, facts: &Facts, part_of: &[i32], curved: &[bool]) 
         cull,
         inward,
         sound: (0..count).map(|g| closed[g] && brep[g]).collect(),
-        bare: brep.iter().map(|brep| !brep).collect(),
+        without_brep: brep.iter().map(|brep| !brep).collect(),
         tight: vec![false; count],
         planar,
         extent: (0..count).map(|g| extent(&found, g, closed[g])).collect(),

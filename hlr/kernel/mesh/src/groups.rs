@@ -14,7 +14,7 @@ pub struct Groups {
     /// Does not pass through itself, as far as its source tells.
     pub sound: Vec<bool>,
     /// A piece of a mesh without B-rep.
-    pub bare: Vec<bool>,
+    pub without_brep: Vec<bool>,
     /// Lines that lie exactly on other groups' triangles.
     pub tight: Vec<bool>,
     /// Only planar faces.
@@ -48,7 +48,7 @@ impl Groups {
         owners.dedup();
         let (before, more) = (self.len(), owners.len());
         let mut out = self.clone();
-        for column in [&mut out.closed, &mut out.cull, &mut out.inward, &mut out.bare] {
+        for column in [&mut out.closed, &mut out.cull, &mut out.inward, &mut out.without_brep] {
             column.resize(before + more, false);
         }
         for column in [&mut out.sound, &mut out.planar] {
@@ -105,7 +105,7 @@ mod tests {
         assert_eq!(found.tight, [false, true, true]);
         assert_eq!(found.closed, [true, false, false]);
         assert_eq!(
-            (found.sound, found.bare, found.extent[1]),
+            (found.sound, found.without_brep, found.extent[1]),
             (vec![false, true, true], vec![true, false, false], 0.0)
         );
     }

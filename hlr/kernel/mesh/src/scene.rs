@@ -300,11 +300,11 @@ pub(super) mod tests {
     fn a_closed_piece_of_a_brep_is_sound() {
         let mut tables = tetrahedra(&[(0.0, 1.0), (5.0, 1.0)], &[true, true]);
         let groups = |tables: &Tables| built(tables).bodies.groups;
-        assert_eq!((&groups(&tables).sound, &groups(&tables).bare), (&vec![false; 2], &vec![true; 2]));
+        assert_eq!((&groups(&tables).sound, &groups(&tables).without_brep), (&vec![false; 2], &vec![true; 2]));
         tables.brep = vec![true];
-        assert_eq!((&groups(&tables).sound, &groups(&tables).bare), (&vec![true], &vec![false]));
+        assert_eq!((&groups(&tables).sound, &groups(&tables).without_brep), (&vec![true], &vec![false]));
         tables.triangles.pop();
         tables.triangle_start[1] = 7;
-        assert_eq!((&groups(&tables).sound, &groups(&tables).bare), (&vec![true, false], &vec![false; 2]));
+        assert_eq!((&groups(&tables).sound, &groups(&tables).without_brep), (&vec![true, false], &vec![false; 2]));
     }
 }

@@ -95,25 +95,6 @@ fn between(p: &Corner, hp: f64, q: &Corner, hq: f64) -> Corner {
     }
 }
 
-/// Clips one loop of a flat polygon by the half-plane a x + b y + c >= 0: for pieces from object space.
-pub fn clip_2d(corners: &[[f64; 2]], line: &[f64; 3], out: &mut Vec<[f64; 2]>) {
-    out.clear();
-    let side = |p: &[f64; 2]| line[0] * p[0] + line[1] * p[1] + line[2];
-    let Some(mut p) = corners.last() else { return };
-    let mut hp = side(p);
-    for q in corners {
-        let hq = side(q);
-        if (hp >= 0.0) != (hq >= 0.0) {
-            let t = hp / (hp - hq);
-            out.push([p[0] + (q[0] - p[0]) * t, p[1] + (q[1] - p[1]) * t]);
-        }
-        if hq >= 0.0 {
-            out.push(*q);
-        }
-        (p, hp) = (q, hq);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -140,12 +121,5 @@ mod tests {
         let wall = Wall::new([1.0, 0.0, 0.0, 0.0]);
         let (hp, hq) = (wall.height(&p.at), wall.height(&q.at));
         assert_eq!(between(&p, hp, &q, hq), between(&q, hq, &p, hp));
-    }
-
-    #[test]
-    fn a_half_plane_cuts_a_square() {
-        let mut out = Vec::new();
-        clip_2d(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]], &[-1.0, 0.0, 1.0], &mut out);
-        assert_eq!(out, [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]]);
     }
 }

@@ -100,11 +100,6 @@ impl Patch {
     pub fn walk(&self, column: i64, row: i64) -> Walk {
         Walk { differences: self.at_pixel(column, row), unit: exp2(-f64::from(self.bits)) }
     }
-
-    /// Depth at a pixel's centre in floating point.
-    pub fn depth_at(&self, column: i64, row: i64) -> f64 {
-        self.walk(column, row).get()
-    }
 }
 
 impl Walk {
@@ -180,7 +175,7 @@ mod tests {
         let at = |c: &[f64; 4], x: f64| c[0] + x * (c[1] + x * (c[2] + x * c[3]));
         for (column, row) in [(0, 0), (3999, 0), (0, 2999), (3999, 2999), (1234, 2345), (2000, 10)] {
             let expected = -at(&p, column as f64) * at(&q, row as f64);
-            let off = depths.depth(patch.depth_at(column, row)) - expected;
+            let off = depths.depth(patch.walk(column, row).get()) - expected;
             assert!(off.abs() < 4e-15, "{off}");
         }
     }

@@ -96,10 +96,6 @@ impl PolygonTable {
         }
     }
 
-    pub fn is_in(&self, facet: u32) -> bool {
-        self.place[facet as usize] != OUT
-    }
-
     pub fn bytes(&self) -> usize {
         use super::statistics::bytes_of;
         bytes_of(&self.winding) + bytes_of(&self.place) + bytes_of(&self.inside) + bytes_of(&self.depths)

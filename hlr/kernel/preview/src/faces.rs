@@ -65,7 +65,7 @@ fn nearest(v: f64) -> i32 {
     ((v + ROUND) - ROUND) as i32
 }
 
-#[allow(clippy::too_many_arguments)]
+#[allow(clippy::too_many_arguments)] // a triangle, its number, and how it is looked at
 #[inline(always)]
 fn add(a: Vertex, b: Vertex, c: Vertex, t: usize, cull: bool, lens: &Lens, sampling: &Sampling, out: &mut Vec<Face>) {
     let area = i64::from(b.x - a.x) * i64::from(c.y - a.y) - i64::from(b.y - a.y) * i64::from(c.x - a.x);

@@ -55,7 +55,6 @@ pub fn clashes<'py>(
     let depth: Vec<f64> = all.iter().map(|c| c.meeting.depth / found.grid.scale_xy).collect();
     out.set_item("depth", depth.into_pyarray(py))?;
     out.set_item("sine", all.iter().map(|c| c.meeting.sine).collect::<Vec<f64>>().into_pyarray(py))?;
-    out.set_item("searched", found.clashes.searched)?;
     out.set_item("tests", found.clashes.tests)?;
     Ok(out)
 }

@@ -23,7 +23,7 @@ arrays! { Groups {
     cull: flat Flat<'py, bool> = |g| &g.0.cull;
     inward: flat Flat<'py, bool> = |g| &g.0.inward;
     sound: flat Flat<'py, bool> = |g| &g.0.sound;
-    bare: flat Flat<'py, bool> = |g| &g.0.bare;
+    without_brep: flat Flat<'py, bool> = |g| &g.0.without_brep;
     tight: flat Flat<'py, bool> = |g| &g.0.tight;
     planar: flat Flat<'py, bool> = |g| &g.0.planar;
     extent: flat Flat<'py, f64> = |g| &g.0.extent;

@@ -225,7 +225,7 @@ fn counters<'py>(py: Python<'py>, c: &Counters) -> PyResult<Bound<'py, PyDict>> 
         ("pyramid_parts", c.pyramid_parts),
         ("hidden_by_pyramid", c.hidden_by_pyramid),
         ("freed_of_own_faces", c.freed_of_own_faces),
-        ("slanted_contacts", c.slanted),
+        ("slanted_contacts", c.slanted_contacts),
     ] {
         out.set_item(name, value)?;
     }

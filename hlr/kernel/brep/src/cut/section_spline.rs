@@ -79,7 +79,7 @@ fn arc(a: &Station, b: &Station) -> f64 {
     chord * (1.0 + turn * turn / 24.0)
 }
 
-#[allow(clippy::too_many_arguments)]
+#[allow(clippy::too_many_arguments)] // a stretch, what it is measured by, and how deep the halving is
 fn refined(
     surface: &Surface,
     a: Station,

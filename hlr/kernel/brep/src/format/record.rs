@@ -5,10 +5,9 @@
 use super::orientation::Orientation;
 use super::tokens::{FLAGS, Read, Table, Tokens};
 
-/// A table in binary: a count, and where its bytes begin.
+/// A table in binary: how many items it has, and where its bytes begin.
 #[derive(Clone, Copy, Debug)]
 pub struct Section {
-    pub table: Table,
     pub count: usize,
     pub begin: usize,
 }
@@ -66,7 +65,7 @@ impl<T: Tokens> Tokens for Recorder<T> {
     fn header(&mut self, table: Table, size: usize) -> Read<usize> {
         let count = self.read.header(table, size)?;
         let kept = if table == Table::OnTriangles { 0 } else { count };
-        self.recorded.sections.push(Section { table, count: kept, begin: self.recorded.bytes.len() });
+        self.recorded.sections.push(Section { count: kept, begin: self.recorded.bytes.len() });
         Ok(count)
     }
 

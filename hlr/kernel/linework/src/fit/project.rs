@@ -16,11 +16,6 @@ impl Projection {
         self.0.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2] + row[3] * w)
     }
 
-    pub fn point(&self, v: &Vec3) -> Vec2 {
-        let [x, y, w] = self.homogeneous(v, 1.0);
-        [x / w, y / w]
-    }
-
     /// Whether the projection is parallel: w does not depend on the point.
     pub fn parallel(&self) -> bool {
         self.0[2] == [0.0, 0.0, 0.0, 1.0]

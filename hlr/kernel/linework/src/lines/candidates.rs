@@ -3,14 +3,11 @@
 use super::chain::chain;
 use super::drawing::Kind;
 use hlr_mesh::topology::components;
+use hlr_visibility::scan::mesh::{DRAWN, OUTLINE};
 
 /// A contour with fewer mesh edges that meets no other line is noise of the mesh: a closed curve of so few chords is
 /// coarser than any tessellation whose chords turn by at most half a radian.
 const NOISE_EDGES: usize = 6;
-
-/// Roles of an edge, as bits: drawn always, and drawn where it is a contour.
-pub const DRAWN: u8 = 1;
-pub const OUTLINE: u8 = 2;
 
 /// The part, edge and face to which a chain belongs; -1 for none.
 #[derive(Clone, Copy, Debug)]

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use super::contour::{Fold, Node};
 use super::face::mean;
-use super::refine::rise;
+use super::refine::{STRAIGHT, rise};
 use super::side::{Side, side};
 use super::{Model, TIE};
 use hlr_accuracy::OUTLINE_BEHIND;
@@ -25,9 +25,6 @@ use hlr_brep::sets::Sets;
 use hlr_exact::snap::Grid;
 use hlr_visibility::boxes::aabb::{Aabb, Item};
 use hlr_visibility::boxes::tree::Tree;
-
-/// Curvature along the line of sight times the chord tolerance: a surface with less is straight.
-const STRAIGHT: f64 = 1e-9;
 
 /// Sine of the angle between an edge and the line of sight; with less it is a point in the image.
 const POINT: f64 = 1e-3;

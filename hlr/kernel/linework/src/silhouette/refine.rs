@@ -47,7 +47,7 @@ pub fn rise(model: &Model, triangles: &[i32], point: &Vector, normal: &Vector) -
 
 const DEEPEST: u32 = 6;
 /// Curvature along the line of sight times the chord tolerance: a surface with less is straight.
-const STRAIGHT: f64 = 1e-9;
+pub const STRAIGHT: f64 = 1e-9;
 
 /// |N . v| in the middle of a stretch: with more, the stretch can only be a short cut from one curve to another.
 const ASTRAY: f64 = 0.3;

@@ -82,7 +82,7 @@ pub fn crossings(
     let sheet = Sheet::new(&tables.points, (triangles, &facts.normals), (edges, &scene.kind));
     let planes = planes(&sheet, &planar.of, found);
     let (face, planes) = (&planar.of[..], &planes);
-    let bodies = Bodies { sheet, group, face, planes, without_brep: &groups.bare, touch, deflection };
+    let bodies = Bodies { sheet, group, face, planes, without_brep: &groups.without_brep, touch, deflection };
     let depth = |(clash, ends): (&Clash, &[i32; 2])| bodies.depth(clash, ends.map(|end| &points[end as usize]));
     let mut depth: Vec<Depth> = found.par_iter().zip(ends).with_min_len(FEW_CLASHES).map(depth).collect();
     chord_ends::limit(&bodies, found, ends, points, &mut depth);

@@ -23,8 +23,6 @@ pub struct Clash {
 #[derive(Default)]
 pub struct Clashes {
     pub found: Vec<Clash>,
-    /// Number of searches: pairs of groups, and groups against themselves.
-    pub searched: usize,
     pub tests: u64,
 }
 
@@ -123,7 +121,7 @@ impl Surfaces<'_> {
             })
             .collect();
         let exceptions = self.of_exceptions(&uncrossed, &try_pair);
-        let mut all = Clashes { searched: pairs.len(), ..Clashes::default() };
+        let mut all = Clashes::default();
         for part in parts.into_iter().chain([exceptions]) {
             all.found.extend(part.found);
             all.tests += part.tests;

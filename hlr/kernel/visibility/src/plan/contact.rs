@@ -27,10 +27,10 @@ pub struct Depths {
 impl Depths {
     /// Per group: a surface nearer than this touches it. Model units.
     pub fn of_groups(self, groups: &Groups) -> Vec<f64> {
-        let least = if groups.bare.contains(&true) { self.share * diagonal(groups) } else { 0.0 };
+        let least = if groups.without_brep.contains(&true) { self.share * diagonal(groups) } else { 0.0 };
         let depth = |g: usize| {
             let own = if groups.planar[g] { self.planar } else { self.curved };
-            if groups.bare[g] { own.max(least) } else { own }
+            if groups.without_brep[g] { own.max(least) } else { own }
         };
         (0..groups.len()).map(depth).collect()
     }
@@ -152,7 +152,7 @@ pub(super) mod tests {
             cull: vec![true; N],
             inward: vec![false; N],
             sound: vec![true; N],
-            bare: vec![false; N],
+            without_brep: vec![false; N],
             tight: vec![false; N],
             planar: vec![true; N],
             extent: vec![1.0; N],
@@ -230,7 +230,7 @@ pub(super) mod tests {
         let mut groups = boxes([[[0.0; 3], [1.0; 3]], [[0.0; 3], [30.0, 40.0, 1.0]], [[0.0; 3], [1.0; 3]]]);
         groups.planar[2] = false;
         assert_eq!(DEPTHS.of_groups(&groups), [2.0, 2.0, 5.0]);
-        groups.bare[1] = true;
+        groups.without_brep[1] = true;
         assert_eq!(DEPTHS.of_groups(&groups), [2.0, 0.5 * 2501f64.sqrt(), 5.0]);
     }
 }

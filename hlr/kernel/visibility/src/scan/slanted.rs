@@ -102,7 +102,7 @@ mod tests {
             groups: &[group; 2],
         };
         let found = solve(&scene, OwnFaces::NONE, Steps::ALL, Numbers::Exact, &|| false).expect("an answer");
-        (found.pieces.iter().map(|p| p.segment).collect(), found.counters.slanted)
+        (found.pieces.iter().map(|p| p.segment).collect(), found.counters.slanted_contacts)
     }
 
     fn states(slope: f64, behind: [f64; 2], of_one_group: bool) -> (Vec<State>, u64) {

@@ -19,31 +19,49 @@ use super::slanted::compared_again;
 use super::touching::touching;
 use hlr_exact::arithmetic::Arithmetic;
 
+/// What the pass did. The names are those of a drawing's `counters`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Counters {
+    /// Triangles of the image.
     pub triangles: u64,
+    /// Of them those that are turned away, of bodies whose back is not looked at.
     pub culled: u64,
+    /// Edges at which the projection folds.
     pub contours: u64,
+    /// Edges whose visibility had to be found.
     pub drawn: u64,
+    /// Edges of closed bodies at which all faces are turned away.
     pub hidden_by_culling: u64,
+    /// Edges seen end-on.
     pub projecting: u64,
+    /// Bands of the image in which crossings were searched side by side.
     pub bands: u64,
+    /// Ends of edges at which the faces in front were counted.
     pub seeds: u64,
+    /// Pairs of an edge and a contour that were compared.
     pub crossing_tests: u64,
+    /// Places where an edge passes behind a contour.
     pub crossings: u64,
+    /// Groups of triangles through which edges may pass.
     pub piercing_parts: u64,
+    /// Pairs of an edge and a triangle that were compared.
     pub piercing_tests: u64,
+    /// Places where an edge passes through a triangle.
     pub piercings: u64,
+    /// Edges whose counts did not agree from end to end, and that were decided by the slow test.
     pub failed_checks: u64,
+    /// Of those the ones on which the slow test contradicted itself: they count as hidden.
     pub contradictions: u64,
     /// Drawn edges of a convex body, decided without any search.
     pub by_culling_alone: u64,
+    /// Groups in the pyramid of depths.
     pub pyramid_parts: u64,
+    /// Edges that it showed to lie behind something from end to end.
     pub hidden_by_pyramid: u64,
     /// Edges that the triangles of their own faces would hide or show wrongly.
     pub freed_of_own_faces: u64,
     /// Edges compared once more because they touch polygons seen at a slant.
-    pub slanted: u64,
+    pub slanted_contacts: u64,
 }
 
 /// Time per step, in seconds; steps side by side share the time by the clock.
@@ -181,7 +199,7 @@ pub fn visibility_by<A: Arithmetic>(
     seconds.counting = clock.lap();
     // 7. correct edges that touch polygons seen at a slant, edges whose own faces are seen edge-on, and outlines at which
     // another body touches
-    (pieces, counters.slanted) = compared_again::<A>(&slant, &exact, &pierced.slanted, pieces, stopped);
+    (pieces, counters.slanted_contacts) = compared_again::<A>(&slant, &exact, &pierced.slanted, pieces, stopped);
     let mut differing = differing;
     differing.extend(touching(mesh, own, &exact, &pierced.sought, &pieces, stopped));
     differing.sort_unstable_by_key(|run| run.start);
