@@ -85,7 +85,7 @@ def _as_there(outcome: Outcome, home: str) -> Outcome:
     if failure is not None:
         failure = replace(failure, message=put_right(failure.message))
     drawings, depends = put_right(outcome.drawings), put_right(outcome.depends)
-    return replace(outcome, failure=failure, drawings=drawings, depends=depends)
+    return replace(outcome, failure=failure, drawings=drawings, depends=depends, missed=put_right(outcome.missed))
 
 
 _idle: dict[LocalPool, threading.Timer] = {}

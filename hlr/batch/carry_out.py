@@ -6,13 +6,17 @@ import sys
 import sysconfig
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from contextlib import nullcontext
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, cast
 
+from hlr.batch.discover import takes_parameters
+from hlr.batch.files_read import FilesRead, recording
 from hlr.batch.job import OF_PARTS, Job, Outcome, failed
-from hlr.batch.request import options_of
+from hlr.batch.request import files_of, options_of
 from hlr.batch.unused_patterns import named
 from hlr.common.process import debugging
 from hlr.errors import HlrError, StrictError, respelled
@@ -33,8 +37,10 @@ def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
 
     invalidate_caches()  # modules beside a script may be new
     started, before = perf_counter(), set(sys.modules)
+    read = FilesRead([Path(job.root), Path(job.root, job.source).parent], _is_installed)
     try:
-        outcome = _drawn(job, progress)
+        with recording(read) if takes_parameters(Path(job.source)) else nullcontext():
+            outcome = _drawn(job, progress)
     except StrictError as error:
         why = str(error).rstrip(".")
         outcome = failed(
@@ -57,10 +63,14 @@ def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
     modules = _own_modules(set(sys.modules) - before)
     for name in modules:  # the next job imports them again, as they are then
         del sys.modules[name]
-    depends = {*modules.values(), *references(Path(job.root, job.source))}
+    source = Path(job.root, job.source)
+    known = (job.source, *files_of(job.options, job.root).values())
+    opened = set(read.files) - {Path(job.root, name).resolve() for name in known}
+    depends = {*modules.values(), *references(source), *opened}
     return replace(
         outcome,
         depends=tuple(sorted(_from_root(path, job.root) for path in depends)),
+        missed=tuple(sorted(_from_root(path, job.root) for path in read.missed)),
         seconds=round(perf_counter() - started, 4),
         peak_memory_mb=_peak_memory_mb(),
     )
@@ -148,17 +158,26 @@ def _facts(drawing: Drawing, more: Sequence[Note], writing: float) -> dict[str, 
 
 def _own_modules(names: Iterable[str]) -> dict[str, Path]:
     """Of these modules, those that no package manager has installed: name and file."""
-    installed = [Path(sysconfig.get_path(name)).resolve() for name in ("stdlib", "platstdlib", "purelib", "platlib")]
-    installed += [Path(__file__).resolve().parents[1]]
     found = {}
     for name in names:
         file = getattr(sys.modules.get(name), "__file__", None)
         if file is None:
             continue
         path = Path(file).resolve()
-        if "site-packages" not in path.parts and not any(path.is_relative_to(folder) for folder in installed):
+        if not _is_installed(path):
             found[name] = path
     return found
+
+
+def _is_installed(path: Path) -> bool:
+    """Whether a file belongs to Python, to hlr, or to what a package manager has installed. path: resolved."""
+    return "site-packages" in path.parts or any(path.is_relative_to(folder) for folder in _installed())
+
+
+@cache
+def _installed() -> list[Path]:
+    places = [Path(sysconfig.get_path(name)).resolve() for name in ("stdlib", "platstdlib", "purelib", "platlib")]
+    return [*places, Path(__file__).resolve().parents[1]]
 
 
 def _from_root(path: Path, root: str) -> str:

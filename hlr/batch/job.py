@@ -84,6 +84,7 @@ class Outcome:
     drawings        facts of each drawing, as they stand in the report
     contents        of each file: drawings by formats
     depends         files that the source pulled in: paths seen from the root, or absolute outside it
+    missed          files that are not there, and that it would pull in if they were: paths of the same kind
     seconds         by the clock
     peak_memory_mb  the most memory that the job took; 0: unknown
     """
@@ -94,6 +95,7 @@ class Outcome:
     depends: tuple[str, ...] = ()
     seconds: float = 0.0
     peak_memory_mb: float = 0.0
+    missed: tuple[str, ...] = ()
 
     @property
     def warned(self) -> bool:

@@ -39,7 +39,8 @@ class Kept:
             return None
         with suppress(DamagedError, KeyError, TypeError, ValueError):
             facts, data = unpacked(key, entry)
-            if all(self._digests.of(Path(job.root, path)) == digest for path, digest in facts["depends"]):
+            same = all(self._digests.of(Path(job.root, path)) == digest for path, digest in facts["depends"])
+            if same and not self._any(job, facts["missed"]):
                 self._store.touch(key)
                 contents, at = [], 0
                 for sizes in facts["sizes"]:
@@ -50,19 +51,27 @@ class Kept:
                     contents.append(tuple(row))
                 depends = tuple(path for path, _ in facts["depends"])
                 cost = facts["seconds"], facts["peak_memory_mb"]
-                return Outcome(None, tuple(facts["drawings"]), tuple(contents), depends, *cost)
+                drawings, missed = tuple(facts["drawings"]), tuple(facts["missed"])
+                return Outcome(None, drawings, tuple(contents), depends, *cost, missed)
         return None
+
+    def _any(self, job: Job, paths: Iterable[str]) -> bool:
+        """Whether one of these files is there."""
+        return any(self._digests.of(Path(job.root, path)) is not None for path in paths)
 
     def keep(self, job: Job, outcome: Outcome) -> None:
         """Keep an outcome where that is possible. Of failures nothing is kept: the next run tries again."""
         if self._store is None or outcome.failure is not None:
             return
         key, used = key_of(job, self._digests), [Path(job.root, path) for path in (job.source, *outcome.depends)]
-        self._digests.forget(used)
+        self._digests.forget([*used, *(Path(job.root, path) for path in outcome.missed)])
         if key is None or key != key_of(job, self._digests) or _newest(used) > time() - outcome.seconds:
             return  # something has changed meanwhile
+        if self._any(job, outcome.missed):
+            return
         facts = {
             "depends": [[path, self._digests.of(Path(job.root, path))] for path in outcome.depends],
+            "missed": outcome.missed,
             "drawings": outcome.drawings,
             "sizes": [[len(content) for content in row] for row in outcome.contents],
             "seconds": outcome.seconds,

@@ -18,7 +18,7 @@ from hlr.batch.versions import libraries, program
 from hlr.common.packages import bindings, installed
 from hlr.tables.readers import of_ending
 
-_FORM = 1
+_FORM = 2
 """Of what is kept of an outcome: another one makes other keys."""
 
 
