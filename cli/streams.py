@@ -83,7 +83,8 @@ def show_path(path: Path) -> None:
     if sys.stdout is not None and sys.stdout.isatty():
         show(str(path))
     else:
-        click.echo(os.fsencode(path))
+        with _told():
+            click.echo(os.fsencode(path))
 
 
 @contextlib.contextmanager

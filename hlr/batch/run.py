@@ -32,7 +32,7 @@ class Listener(Protocol):
     """Whoever watches a batch. Jobs are told by their number in the plan."""
 
     def planned(self, plan: Plan, todo: Sequence[int]) -> None:
-        """These jobs have to be drawn; all others are unchanged."""
+        """These jobs have to be drawn, or cannot be written from the cache; all others are unchanged."""
 
     def begun(self, number: int, stage: str) -> None:
         """A job has come to a stage."""
@@ -74,10 +74,13 @@ def run(plan: Plan, kept: Kept, pool: Callable[[], Pool], listener: Listener) ->
         outcome = kept.find(job)
         if outcome is not None:
             outcomes[number] = without_contents(written(plan, job, outcome))
+    lost = [number for number, outcome in outcomes.items() if outcome.failure is not None]
     todo = [number for number in _largest_first(plan.jobs) if number not in outcomes]
     _check_options(plan.manifest, [plan.jobs[number] for number in todo])
     check_parameters(plan, {plan.jobs[number].rule for number in todo if plan.jobs[number].parameters})
-    listener.planned(plan, todo)
+    listener.planned(plan, [*lost, *todo])
+    for number in lost:
+        listener.ended(number, outcomes[number])
     if todo:
         _check_output(plan.output)
         for event in pool().run([plan.jobs[number] for number in todo], deadline):
@@ -95,7 +98,7 @@ def run(plan: Plan, kept: Kept, pool: Callable[[], Pool], listener: Listener) ->
     if late:
         listener.out_of_time(len(late))
         outcomes |= {number: _late(plan.jobs[number], limit) for number in late}
-    return Done(plan, tuple(outcomes[number] for number in range(len(plan.jobs))), tuple(sorted(todo)))
+    return Done(plan, tuple(outcomes[number] for number in range(len(plan.jobs))), tuple(sorted([*lost, *todo])))
 
 
 def _check_output(folder: Path) -> None:

@@ -341,3 +341,13 @@ def test_an_arranged_page_as_json(hlr_batch):
     assert done.stderr.startswith("1/1 part.off: 1 page, ")
     found = json.loads((hlr_batch.folder / "drawings/part-first-angle.json").read_text("utf-8"))
     assert [view["name"] for view in found["views"]] == ["front", "top", "left", "iso"]
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a file that is always full")
+def test_a_list_that_cannot_be_printed_is_told_in_a_sentence(hlr_batch):
+    tetrahedron(hlr_batch.folder / "a.off", 3)
+    line = [sys.executable, "-P", "-m", "hlr", "batch", "--list"]
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run(line, cwd=hlr_batch.folder, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr == "hlr: cannot write to standard output: no space left on device.\n"

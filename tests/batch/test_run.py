@@ -217,6 +217,31 @@ def test_a_full_disk_costs_its_drawing_alone(go, tmp_path, monkeypatch):
     assert "b.off" in go()[1]
 
 
+def test_a_full_disk_for_what_is_unchanged_is_told(tmp_path, monkeypatch):
+    tetrahedron(tmp_path / "a.off")
+    tetrahedron(tmp_path / "b.off")
+    old(tmp_path)
+    asked = plan(manifest_of({"views": "top"}, tmp_path), tmp_path / "out")
+
+    def go():
+        listener, digests = Silent(), Digests()
+        done = run(asked, Kept(Store(tmp_path / "cache", 10**9, DRAWINGS), digests), FakePool(), listener)
+        return listener, done
+
+    go()
+    (tmp_path / "out/a-top.svg").unlink()
+
+    def full(file, data):
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(files, "_write", full)
+        listener, done = go()
+    assert listener.todo == ["a.off"] and listener.told == [0], "the failure is told"
+    assert done.drawn == (0,) and done.outcomes[0].failure is not None and done.outcomes[1].failure is None
+    assert go()[1].drawn == ()
+
+
 def test_options_are_refused_before_anything_is_drawn(go, tmp_path):
     pool = FakePool()
     with pytest.raises(OptionError, match="crease 200 is not a crease angle"):
