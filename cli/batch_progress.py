@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING
 
+from hlr.batch.printed import last_lines
 from hlr.batch.run import source_size
 from hlr.common.printable import printable
 from hlr.errors import counted
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 
     from hlr.batch.job import Outcome
     from hlr.batch.plan import Plan
+
+_LINES_PRINTED = 10
+"""Lines that are shown of what a script has printed that fails; the report has more."""
 
 
 class Lines:
@@ -41,7 +45,7 @@ class Lines:
         """As of `Listener`."""
         self._ended += 1
         if outcome.failure is not None or not self.quiet:
-            say(f"{self._ended}/{self._total} {told(self._plan, number, outcome)}")
+            say(f"{self._ended}/{self._total} {told(self._plan, number, outcome)}", *_printed(outcome))
 
     def out_of_time(self, left: int) -> None:
         """As of `Listener`."""
@@ -94,7 +98,8 @@ class Display(Lines):
         self._running.pop(number, None)
         self._done += self._weights[number]
         if self._live is not None and (outcome.failure is not None or outcome.warned):
-            self._live.console.print(told(self._plan, number, outcome), markup=False, highlight=False)
+            lines = (told(self._plan, number, outcome), *map(printable, _printed(outcome)))
+            self._live.console.print("\n".join(lines), markup=False, highlight=False)
         if self._ended == self._total:
             self._stop()
 
@@ -139,6 +144,11 @@ def told(plan: Plan, number: int, outcome: Outcome) -> str:
     told = f", {warnings} warning{'s' if warnings > 1 else ''}" if warnings else ""
     drawings = counted(len(outcome.drawings), "page" if plan.jobs[number].arrange else "view")
     return f"{title}: {drawings}, {outcome.seconds:.1f} s{told}"
+
+
+def _printed(outcome: Outcome) -> list[str]:
+    """The last lines that a script has printed which failed."""
+    return [f"    {line}" for line in last_lines(outcome.printed, _LINES_PRINTED)]
 
 
 def progress(quiet: bool) -> Lines:

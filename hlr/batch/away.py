@@ -85,7 +85,8 @@ def _as_there(outcome: Outcome, home: str) -> Outcome:
     if failure is not None:
         failure = replace(failure, message=put_right(failure.message))
     drawings, depends = put_right(outcome.drawings), put_right(outcome.depends)
-    return replace(outcome, failure=failure, drawings=drawings, depends=depends, missed=put_right(outcome.missed))
+    missed, printed = put_right(outcome.missed), put_right(outcome.printed)
+    return replace(outcome, failure=failure, drawings=drawings, depends=depends, missed=missed, printed=printed)
 
 
 _idle: dict[LocalPool, threading.Timer] = {}

@@ -85,6 +85,7 @@ class Outcome:
     contents        of each file: drawings by formats
     depends         files that the source pulled in: paths seen from the root, or absolute outside it
     missed          files that are not there, and that it would pull in if they were: paths of the same kind
+    printed         the end of what a script has printed that fails
     seconds         by the clock
     peak_memory_mb  the most memory that the job took; 0: unknown
     """
@@ -96,6 +97,7 @@ class Outcome:
     seconds: float = 0.0
     peak_memory_mb: float = 0.0
     missed: tuple[str, ...] = ()
+    printed: str = ""
 
     @property
     def warned(self) -> bool:

@@ -6,7 +6,8 @@ from typing import Any
 
 
 def document(found: dict[str, Any]) -> bytes:
-    """JUnit XML. A source that could not be drawn is an error; warnings are its output."""
+    """JUnit XML. A source that could not be drawn is an error, what a script has printed stands beside it;
+    warnings are its output."""
     from junitparser import Error, JUnitXml, TestCase, TestSuite
 
     cases = []
@@ -14,6 +15,8 @@ def document(found: dict[str, Any]) -> bytes:
         case = TestCase(_text(title(source)), "hlr", source["cost"]["seconds"])
         if source["error"] is not None:
             case.result = [Error(_text(source["error"]["message"]), source["error"]["kind"])]
+            if source["error"].get("printed"):
+                case.system_err = _text(source["error"]["printed"])
         told = [note["text"] for drawing in source["drawings"] for note in drawing["notes"]]
         if told:
             case.system_out = _text("\n".join(dict.fromkeys(told)))

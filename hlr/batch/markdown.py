@@ -7,12 +7,19 @@ from collections.abc import Sequence
 from typing import Any
 
 from hlr.batch.junit import title
+from hlr.batch.printed import last_lines
 from hlr.errors import counted
 
 _MOST_ROWS = 200
 """Of a table: CI services refuse long summaries."""
 
 _SLOWEST = 10
+
+_MOST_PRINTED, _LINES_PRINTED = 20, 20
+"""Of scripts that failed: how many have shown what they printed, and the last lines of each."""
+
+
+_CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
 
 
 def document(found: dict[str, Any]) -> bytes:
@@ -39,6 +46,7 @@ def document(found: dict[str, Any]) -> bytes:
             [(s["file"], s["source"]) for s in found.get("stale", ())],
         ),
         _table("Failed", ("source", "why"), failed),
+        _printed(sources),
         _table("Warnings", ("source", "warning"), warned),
         _table(
             "Slowest",
@@ -47,6 +55,18 @@ def document(found: dict[str, Any]) -> bytes:
         ),
     ]
     return "\n".join(filter(None, parts)).encode("utf-8", "replace")
+
+
+def _printed(sources: Sequence[dict[str, Any]]) -> str:
+    """The last lines that scripts have printed which failed."""
+    parts = []
+    for source in sources:
+        lines = last_lines((source["error"] or {}).get("printed", ""), _LINES_PRINTED)
+        if lines:
+            # Indented by four, a text is shown as it is, whatever is in it.
+            shown = "\n".join(f"    {_CONTROLS.sub('?', line)}" for line in lines)
+            parts.append(f"{_cell(title(source))} printed:\n\n{shown}\n")
+    return "\n".join(parts[:_MOST_PRINTED])
 
 
 def _changed(found: dict[str, Any]) -> str:

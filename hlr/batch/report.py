@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hlr.batch import ci, junit, markdown
-from hlr.batch.job import Job, Outcome
+from hlr.batch.job import Failure, Job, Outcome
 from hlr.batch.keys import Digests
 from hlr.batch.page import write as page
 from hlr.batch.run import Done
@@ -100,10 +100,14 @@ def _source(job: Job, outcome: Outcome, digests: Digests) -> Document:
         "options": json.loads(json.dumps(job.options, default=str)),
         "views": list(job.views),
         "state": "failed" if failure else "warned" if outcome.warned else "drawn",
-        "error": None if failure is None else {"kind": failure.kind, "message": failure.message},
+        "error": None if failure is None else _error(failure, outcome.printed),
         "drawings": drawings,
         "cost": {"seconds": outcome.seconds, "peak_memory_mb": outcome.peak_memory_mb},
     }
+
+
+def _error(failure: Failure, printed: str) -> Document:
+    return {"kind": failure.kind, "message": failure.message, **({"printed": printed} if printed else {})}
 
 
 def _as_json(found: Document, _environment: Mapping[str, str]) -> bytes:

@@ -9,7 +9,7 @@ import sys
 import threading
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
@@ -95,6 +95,7 @@ class Worker:
     def _outcome(self, number: int, job: Job, started: float) -> Outcome:
         running = _Running(job)
         code: int | None = None
+        printed = ""
         try:
             process = self._started()
         except OSError as error:
@@ -113,15 +114,17 @@ class Worker:
                 elif said == "stage":
                     running.times.begin(value)
                     self._said.put(Begun(number, value))
+                elif said == "printed":
+                    printed = value
                 elif said == "ended":
-                    return _ended(value)
+                    return replace(_ended(value), printed=printed)
                 else:
                     code = value
                     break
         except (EOFError, OSError):
             code = self._stop()
         why = running.verdict or _why(job, running.times.stage, code)
-        return failed(*why, seconds=round(time.monotonic() - started, 4))
+        return replace(failed(*why, seconds=round(time.monotonic() - started, 4)), printed=printed)
 
     def _started(self) -> subprocess.Popen[bytes]:
         if self._process is None:

@@ -12,6 +12,7 @@ Messages to the pool::
 
     ("at", pid)            this process now does the job; None: none does, what it needs is imported
     ("stage", name)        a stage of the drawing begins
+    ("printed", text)      the end of what a script has printed that fails; one of the next two follows
     ("ended", outcome)     the job is done
     ("crashed", code)      the child ended without an outcome: exit code, or minus the number of the signal
 """
@@ -25,11 +26,14 @@ import sys
 from collections.abc import Callable, Sequence
 from importlib import import_module
 from importlib.machinery import ModuleSpec
+from pathlib import Path
 from typing import Any, NoReturn
 
 from hlr.batch.carry_out import carry_out
+from hlr.batch.discover import takes_parameters
 from hlr.batch.frames import receive, send
 from hlr.batch.job import Job
+from hlr.batch.printed import Printed
 from hlr.common.leftovers import Leftovers
 from hlr.common.process import claim, debugging, tie_to, without_core_files
 from hlr.tables.entry import called
@@ -96,19 +100,24 @@ def _in_child(job: Job, writing: int, imported: set[str]) -> bool:
     """Do a job in a child, and pass on what it says. Returns whether the job has to start again."""
     here, there = os.pipe()
     own, left = os.getpid(), Leftovers()
+    printed = Printed() if takes_parameters(Path(job.source)) and not debugging() else None
     child = os.fork()
     if not child:
-        _be_child(job, there, own, imported)
+        _be_child(job, there, own, imported, printed)
     os.close(there)
     left.adopt()
     send(writing, ("at", child))
-    said = _pass_on(here, child, writing)
+    said = _pass_on(here, child, writing, printed)
     os.close(here)
     if said[0] == "needs":
         send(writing, ("at", None))  # limits are for the job
     code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
     if said[0] != "ended" or said[1].failure is not None:
         left.kill()
+        if printed is not None and said[0] != "needs":
+            send(writing, ("printed", printed.text()))
+    if printed is not None:
+        printed.close()
     if said[0] == "needs":
         imported.add(said[1])
         for name in _HEAVY[said[1]]:
@@ -119,10 +128,12 @@ def _in_child(job: Job, writing: int, imported: set[str]) -> bool:
     return False
 
 
-def _be_child(job: Job, writing: int, parent: int, imported: set[str]) -> NoReturn:
+def _be_child(job: Job, writing: int, parent: int, imported: set[str], printed: Printed | None) -> NoReturn:
     code = 1
     try:
         tie_to(parent)
+        if printed is not None:
+            printed.take()
 
         def needs(package: str) -> NoReturn:
             send(writing, ("needs", package))
@@ -135,10 +146,12 @@ def _be_child(job: Job, writing: int, parent: int, imported: set[str]) -> NoRetu
         os._exit(code)
 
 
-def _pass_on(here: int, child: int, writing: int) -> tuple[Any, ...]:
+def _pass_on(here: int, child: int, writing: int, printed: Printed | None) -> tuple[Any, ...]:
     """Pass on the stages of a child. Returns its last message: an outcome, or a package that it needs, or ()."""
     with contextlib.suppress(EOFError):
         while True:
+            if printed is not None:
+                printed.shorten()
             if select.select([here], [], [], _GLANCE)[0]:
                 message: tuple[Any, ...] = receive(here)
                 if message[0] != "stage":

@@ -153,6 +153,7 @@ def of_batch(hlr_real, monkeypatch):
         Path(f"{name}.off").write_text(TETRAHEDRON.format(10))
     Path("open.off").write_text(TETRAHEDRON.format(10).replace("4 4 0", "4 3 0").replace("3 0 3 2\n", ""))
     Path("broken.step").write_text("nothing")
+    Path("fails.py").write_text("import cadquery\nprint('on the way')\nresult = 1 / 0\n")
     asked = ("batch", "--jobs", "1", "--format", "svg", "--view", "front")
     assert hlr_real(*asked).code == 1
     yield read("drawings/manifest.json")
