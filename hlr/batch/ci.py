@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Iterator, Mapping
 from hashlib import sha256
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from hlr.batch.junit import title
@@ -33,7 +34,8 @@ def github(found: dict[str, Any], root: Path, environment: Mapping[str, str]) ->
     lines = []
     for level, path, name, message in _told(found):
         file = Path(os.path.relpath(root / path, home)).as_posix()
-        lines.append(f"::{level} file={_property(file)},title={_property(name)}::{_data(message)}")
+        place = f"file={_property(file)}" + (f",line={line}" if (line := _line(path, message)) else "")
+        lines.append(f"::{level} {place},title={_property(name)}::{_data(message)}")
     return lines
 
 
@@ -47,11 +49,17 @@ def code_quality(found: dict[str, Any], environment: Mapping[str, str]) -> bytes
             "check_name": f"hlr-{level}",
             "fingerprint": sha256(f"{level}\0{name}\0{message}".encode("utf-8", "replace")).hexdigest(),
             "severity": "major" if level == "error" else "minor",
-            "location": {"path": path, "lines": {"begin": 1}},
+            "location": {"path": path, "lines": {"begin": _line(path, message) or 1}},
         }
         for level, path, name, message in _told(found)
     ]
     return json.dumps(rows, indent=1).encode("ascii") + b"\n"
+
+
+def _line(path: str, message: str) -> int | None:
+    """The line of the source that a message begins with; None: it names none."""
+    found = re.match(rf"(?:{re.escape(path)}|{re.escape(PurePosixPath(path).name)}), line (\d+)\b", message)
+    return int(found[1]) if found else None
 
 
 def _data(text: str) -> str:
