@@ -17,6 +17,7 @@ LINK = "App::LinkExtension"
 
 KINDS = {
     "App::Part": GROUP,
+    "PartDesign::Body": GROUP,
     "App::DocumentObjectGroup": FOLDER,
     "App::Link": LINK,
     "App::LinkElement": "App::LinkBaseExtension",

@@ -114,7 +114,16 @@ def solids(root, path=""):
         shape = root.getSubObject(path, 0)
         return [[s.Volume, *s.CenterOfMass] for s in ([] if shape is None or shape.isNull() else shape.Solids)]
     found = []
+    # A part lists what is in its folders beside these once more. Each object is shown once.
+    folders = [
+        each
+        for each in getattr(thing.getLinkedObject(True), "Group", ())
+        if each.isDerivedFrom("App::DocumentObjectGroup") and each.Visibility
+    ]
+    in_folders = {f"{each.Name}." for folder in folders for each in folder.Group}
     for name in inside:
+        if name in in_folders:
+            continue
         shown = thing.isElementVisible(name.rstrip("."))
         if shown == -1:
             shown = root.getSubObject(path + name, 1).Visibility

@@ -37,6 +37,7 @@ class _Context:
     above   the names of the objects on the way to it: a link to one of them would have no end
     look    a colour that a link gives
     label   a label that takes the place of its own
+    path    the way on to the one object within it that a link asks for; empty: all that is in it
     """
 
     place: MatrixRows = IDENTITY
@@ -45,6 +46,7 @@ class _Context:
     above: tuple[str, ...] = ()
     look: Look | None = None
     label: str = ""
+    path: tuple[str, ...] = ()
 
 
 class Tree:
@@ -96,40 +98,80 @@ class Tree:
             )
         elif thing.type in _AIDS:
             return
-        elif (members := _members(thing)) and thing.type not in _BODIES:
+        elif (members := _members(thing)) and (context.path or thing.type not in _BODIES):
             place = _own_place(thing, context) if _moves(thing) else context.place
             self._members(members, replace(inner, place=place))
+        elif context.path:
+            self._leads_nowhere(label)
         elif "Shape" in thing.values:
             self._shape(thing, context, "/".join(inner.names))
         elif thing.type.startswith("Mesh::"):
             self._leave_out(f'"{label}" is a mesh and was left out: export it as STL, 3MF or OBJ to draw it.')
 
     def _members(self, names: list[str], context: _Context) -> None:
+        if context.path:
+            self._follow(names, context)
+            return
+        in_folders = self._in_folders(names)
         for name in names:
             thing = self.document.objects.get(name)
-            if thing is not None and self._is_shown(thing):
+            if thing is not None and name not in in_folders and self._is_shown(thing):
                 self._visit(thing, context)
+
+    def _follow(self, names: list[str], context: _Context) -> None:
+        """Go on to the one member that a link asks for, shown or not. The label of the link takes its label's place."""
+        wanted, label = context.path[0], context.names[-1]
+        for name in names:
+            thing = self.document.objects.get(name)
+            if thing is not None and wanted in (name, f"${thing.label}"):
+                self._visit(thing, replace(context, names=context.names[:-1], label=label, path=context.path[1:]))
+                return
+        self._leads_nowhere(label)
+
+    def _in_folders(self, names: list[str]) -> set[str]:
+        """The members that lie in folders among them: a part lists what is in its folders beside these once more."""
+        things = ((name, self.document.objects.get(name)) for name in names)
+        folders = {
+            name: _members(thing)
+            for name, thing in things
+            if thing is not None and _is_folder(thing) and (thing.visible or self._hidden)
+        }
+        inner = {name for members in folders.values() for name in members}
+        # Folders that hold one another are in none that is followed.
+        ahead, found = [name for name in folders if name not in inner], set[str]()
+        while ahead:
+            new = set(folders[ahead.pop()]) - found
+            found |= new
+            ahead += sorted(new & folders.keys())
+        return found
 
     def _link(self, thing: Object, context: _Context) -> None:
         """A link, an array of links, or a group of links; context: that of what is in it."""
         values, label = thing.values, context.names[-1]
         elements = values.links("ElementList")
         shown = values.bits("VisibilityList")
+        if elements and context.path:
+            self._follow(elements, context)
+            return
         if elements:
             for number, name in enumerate(elements):
                 element = self.document.objects.get(name)
                 if element is not None and (self._hidden or shown[number : number + 1] != "0"):
                     self._visit(element, context)
             return
-        target = self._target(thing, label)
+        target, path = self._target(thing, label)
         if target is None:
             return
         # The label of a link takes the place of that of its target.
         context = replace(context, names=context.names[:-1], label=label, placed=values.flag("LinkTransform", False))
         count = values.count("ElementCount") or values.count("Count")
         if not count:
-            self._visit(target, context)
+            self._visit(target, replace(context, path=(*path, *context.path)))
             return
+        if context.path:
+            self._leads_nowhere(label)
+            return
+        context = replace(context, path=path)
         places, scales = values.placements("PlacementList"), values.vectors("ScaleList")
         for number in range(count):
             if shown[number : number + 1] == "0" and not self._hidden:
@@ -139,22 +181,24 @@ class Tree:
                 place = compose(place, _scaling(*scales[number]))
             self._visit(target, replace(context, place=place))
 
-    def _target(self, thing: Object, label: str) -> Object | None:
-        """What a link refers to; None, with a note, where that cannot be drawn."""
+    def _target(self, thing: Object, label: str) -> tuple[Object | None, tuple[str, ...]]:
+        """What a link refers to, and the way on to what it shows of it; None, with a note, where it cannot be drawn."""
         for name in _TARGETS:
             if name not in thing.values:
                 continue
             if other := thing.values.other_document(name):
                 self._leave_out(f'"{label}" is kept in another document, {other}, and was left out: draw that one too.')
-                return None
-            if thing.values.sub_names(name):
+                return None, ()
+            # A dot follows each object: what stands after the last one is a face or an edge.
+            subs = thing.values.sub_names(name)
+            if len(subs) > 1 or not all(sub.endswith(".") for sub in subs):
                 self._leave_out(f'"{label}" is a link to a part of an object and was left out.')
-                return None
+                return None, ()
             target = self.document.objects.get(thing.values.link(name))
             if target is not None:
-                return target
+                return target, tuple(subs[0].split(".")[:-1]) if subs else ()
         self._leave_out(f'"{label}" is a link to nothing and was left out.')
-        return None
+        return None, ()
 
     def _shape(self, thing: Object, context: _Context, name: str) -> None:
         if len(self.leaves) >= MAX_LEAVES:
@@ -170,6 +214,9 @@ class Tree:
             self._leave_out(f'"{name}" was left out: its shape {error}.')
             return
         (self.sketches if thing.type in _SKETCHES else self.leaves).append(leaf)
+
+    def _leads_nowhere(self, label: str) -> None:
+        self._leave_out(f'"{label}" is a link to what its target does not hold, and was left out.')
 
     def _leave_out(self, text: str) -> None:
         note = Note("part-left-out", text)
@@ -192,6 +239,11 @@ def _own_place(thing: Object, context: _Context) -> MatrixRows:
 def _moves(thing: Object) -> bool:
     """Whether a group moves what is in it; others are folders."""
     return _is_link(thing) or bool(_MOVING & thing.extensions) or thing.type in _MOVING_TYPES
+
+
+def _is_folder(thing: Object) -> bool:
+    """Whether it is a group that moves nothing."""
+    return bool(_members(thing)) and not _moves(thing) and thing.type not in _BODIES
 
 
 def _place_around(name: str, parents: Mapping[str, Object]) -> MatrixRows:
