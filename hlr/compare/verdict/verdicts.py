@@ -144,19 +144,20 @@ def _answers(each: Difference, hidden: bool) -> tuple[Answer, Answer]:
     return (own, other) if each.side == "before" else (other, own)
 
 
-def _right(answer: Answer, line: Answer, known: Truth, n: int, hidden: bool, hides: bool) -> bool | None:
+def _right(answer: Answer, line: Answer, known: Truth, n: int, hidden: bool, by: Shown) -> bool | None:
     """Whether an answer is true at point n of a line that one drawing has; None where that cannot be said.
 
     line: as one of the drawings has it; hidden: a hidden line may be drawn there, or left out by him who draws none,
-    because it is under the ink of a visible one; hides: whether the drawing that answers has hidden lines at all
+    because it is under the ink of a visible one; by: what the drawing that answers shows
     """
     always, state = int(known.always[n]), max(int(known.always[n]), int(known.optional[n]))
     if not answer.drawn:
-        if line.visible == 0 and hidden:
+        # Of a line that may be either: the visible one that runs there is drawn, or a hidden one lies under its ink.
+        if hidden and (line.visible == 0 or (line.visible < 0 and by.inked[n])):
             return True
         if always == VISIBLE:
             return False
-        return None if always == UNCLEAR else always == NOTHING or not hides or hidden
+        return None if always == UNCLEAR else always == NOTHING or not by.hides or hidden
     if state == NOTHING or answer.visible < 0:
         return state != NOTHING
     if answer.visible == 0 and hidden:
@@ -176,7 +177,7 @@ def _seen(each: Difference, known: Truth, here: Index, shown: tuple[Shown, Shown
         ink = alone and bool(known.covered[n] or other.inked[n])
         true = alone and line.visible == 0 and (ink or bool(known.hidden[n]))
         first, second = (
-            _right(answer, line, known, n, true if answer.drawn else ink, some.hides)
+            _right(answer, line, known, n, true if answer.drawn else ink, some)
             for answer, some in zip(answers, shown, strict=True)
         )
         if first is not None and second is not None:
