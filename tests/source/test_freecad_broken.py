@@ -10,7 +10,7 @@ from hlr.errors import SourceError
 from hlr.source import archive, open_source
 from hlr.source.freecad import tree
 from support import freecad_document as fc
-from support.freecad_document import item, kept, links, vector, whole, write, xlink
+from support.freecad_document import item, kept, links, number, vector, whole, write, xlink
 
 CUBE = {"cube.brp": fc.box(10, 20, 30)}
 SHAPE = kept("Part", "cube.brp")
@@ -59,6 +59,11 @@ def texts(source):
             {"Bad": item("App::Link", LinkedObject=xlink("Box"), ScaleVector=vector(0, 1, 1))},
             CUBE,
             '"Bad" was left out: its shape has no volume at a scale of zero',
+        ),
+        (
+            {"Bad": item("App::Link", LinkedObject=xlink("Box"), Scale=number(1e300))},
+            CUBE,
+            '"Bad" was left out: its shape is larger than numbers can be at its scale',
         ),
     ],
 )

@@ -123,7 +123,11 @@ def split_scale(rows: MatrixRows) -> tuple[Floats | None, MatrixRows]:
         return None, rows
     matrix = np.array(rows).reshape(3, 4)
     linear, shift = matrix[:, :3], matrix[:, 3]
-    size = math.copysign(abs(float(np.linalg.det(linear))) ** (1 / 3), float(np.linalg.det(linear)))
+    with np.errstate(over="ignore"):
+        volume = float(np.linalg.det(linear))
+    if not math.isfinite(volume):
+        raise ValueError("is larger than numbers can be at its scale")
+    size = math.copysign(abs(volume) ** (1 / 3), volume)
     if size == 0.0:
         raise ValueError("has no volume at a scale of zero")
     turn = linear / size
