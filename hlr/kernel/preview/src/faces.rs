@@ -8,6 +8,7 @@ use super::face::{Chunk, Face, Vertex};
 use super::grid::GRID;
 use super::lens::Lens;
 use super::near_clip::cut;
+use super::plane::Plane;
 use super::sampling::Sampling;
 use super::workspace::Workspace;
 use hlr_brep::geometry::vector::Vector;
@@ -33,7 +34,7 @@ pub fn faces(
         let (x, y) = (x * f64::from(GRID), y * f64::from(GRID));
         // Half a picture beyond the border is allowed; NaN fails the test.
         let within = (x - 0.5 * wide).abs() <= wide && (y - 0.5 * high).abs() <= high && z >= near;
-        if within { Vertex { x: nearest(x), y: nearest(y), depth: depth.max(0.0) as f32 } } else { Vertex::OFF }
+        if within { Vertex::at(x, y, depth.max(0.0)) } else { Vertex::OFF }
     };
     model.points.par_iter().with_min_len(4096).map(project).collect_into_vec(&mut space.vertices);
     let vertices = &space.vertices;
@@ -58,13 +59,6 @@ pub fn faces(
     !stopped()
 }
 
-#[inline(always)]
-fn nearest(v: f64) -> i32 {
-    // Adding this rounds to the nearest integer, ties to even, without a call: at 2^52 a double has no fraction bits.
-    const ROUND: f64 = 6_755_399_441_055_744.0;
-    ((v + ROUND) - ROUND) as i32
-}
-
 #[allow(clippy::too_many_arguments)] // a triangle, its number, and how it is looked at
 #[inline(always)]
 fn add(a: Vertex, b: Vertex, c: Vertex, t: usize, cull: bool, lens: &Lens, sampling: &Sampling, out: &mut Vec<Face>) {
@@ -74,8 +68,10 @@ fn add(a: Vertex, b: Vertex, c: Vertex, t: usize, cull: bool, lens: &Lens, sampl
         return;
     }
     let (b, c) = if area > 0 { (b, c) } else { (c, b) };
-    let depth = [a.depth, b.depth, c.depth];
-    let face = Face::new([a.x, b.x, c.x], [a.y, b.y, c.y], depth, t as u32, sampling, lens.size);
+    let (x, y, depth) = ([a.x, b.x, c.x], [a.y, b.y, c.y], [a.depth, b.depth, c.depth]);
+    let corners = [a.place(), b.place(), c.place()];
+    let plane = Plane::through(&corners).unwrap_or_else(|| Plane::on_grid(&x, &y, &depth));
+    let face = Face::new(x, y, depth.map(|z| z as f32), plane, t as u32, sampling, lens.size);
     if face.reach.iter().all(|r| r[0] < r[1]) {
         out.push(face);
     }
@@ -88,7 +84,7 @@ fn cut_faces(model: &Model, lens: &Lens, sampling: &Sampling, t: usize, out: &mu
         .iter()
         .map(|v| {
             let place = lens.place(v).map(|c| c * f64::from(GRID));
-            Vertex { x: nearest(place[0]), y: nearest(place[1]), depth: lens.depth(v[2]).max(0.0) as f32 }
+            Vertex::at(place[0], place[1], lens.depth(v[2]).max(0.0))
         })
         .collect();
     for i in 2..polygon.len() {

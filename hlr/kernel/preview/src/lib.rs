@@ -34,6 +34,7 @@ pub mod near_clip;
 pub mod normals;
 pub mod occlusion;
 pub mod picture;
+pub mod plane;
 pub mod pyramid;
 pub mod raster;
 pub mod resolve;

@@ -14,7 +14,7 @@
 use super::face::Face;
 use super::grid::{GRID, LANES, TILE_HEIGHT, TILE_WIDTH};
 use super::sampling::Sampling;
-use super::slope::nearer;
+use super::slope::{Slope, nearer};
 
 /// Number of vectors of lanes that hold the face's columns; 0: the face is too large.
 #[inline(always)]
@@ -57,38 +57,20 @@ pub fn fill<const N: usize>(
     };
     let ((mut one, b1), (mut two, b2), (mut three, b3)) = (edge(0, 1), edge(1, 2), edge(2, 0));
 
-    let [x1, x2] = [1, 2].map(|k: usize| face.x[k].wrapping_sub(face.x[0]));
-    let [y1, y2] = [1, 2].map(|k: usize| face.y[k].wrapping_sub(face.y[0]));
-    let over = 1.0 / x1.wrapping_mul(y2).wrapping_sub(x2.wrapping_mul(y1)) as f32;
-    let [z1, z2] = [face.depth[1] - face.depth[0], face.depth[2] - face.depth[0]];
-    let dx = (z1 * y2 as f32 - z2 * y1 as f32) * over;
-    let dy = (z2 * x1 as f32 - z1 * x2 as f32) * over;
-    let low = face.depth[0].min(face.depth[1]).min(face.depth[2]);
-    let high = face.depth[0].max(face.depth[1]).max(face.depth[2]);
-    let start = face.depth[0] + (dx * along[0] as f32 + dy * down[0] as f32);
-    let (dx, dy) = (dx * GRID as f32, dy * GRID as f32);
-    let mut depth = [[start; LANES]; N];
-    for (l, v) in depth.as_flattened_mut().iter_mut().enumerate() {
-        *v += dx * l as f32;
-    }
-
+    let slope = Slope::new(face, first, &Sampling::CENTRES);
     let at = at as usize;
+    let depths = slope.shifted(at);
     for (row, samples) in samples[rows[0]..rows[1]].iter_mut().enumerate() {
-        let fall = dy * row as f32;
         let (lanes, _) = samples[at..].as_chunks_mut::<LANES>();
         for (n, samples) in lanes.iter_mut().take(N).enumerate() {
-            let (mut outside, mut z) = ([0i32; LANES], depth[n]);
+            let mut outside = [0i32; LANES];
             for l in 0..LANES {
                 outside[l] = (one[n][l] | two[n][l] | three[n][l]) >> 31;
                 one[n][l] = one[n][l].wrapping_add(b1);
                 two[n][l] = two[n][l].wrapping_add(b2);
                 three[n][l] = three[n][l].wrapping_add(b3);
             }
-            for v in &mut z {
-                let v2 = *v + fall;
-                let v2 = if v2 > low { v2 } else { low };
-                *v = if v2 < high { v2 } else { high };
-            }
+            let z = depths.lanes(rows[0] + row, n);
             nearer(&outside, &z, face.triangle, samples);
         }
     }

@@ -12,6 +12,7 @@
 //! j) is that of floor(E(0, 0) / 2^shift) + A i + B j, which fits 32 bits within a tile.
 
 use super::face::Face;
+use super::grid::LANES;
 use super::sampling::Sampling;
 use super::slope::window;
 use super::tile::Tile;
@@ -66,7 +67,8 @@ pub fn owned(face: &Face, first: [i32; 2], sampling: &Sampling, mut found: impl 
     let mut scan = row_spans::Scan::new(face, first, sampling);
     while let Some((row, from, to)) = scan.next_span() {
         for column in from..to {
-            found(column, row, scan.slope.lanes(row, column, sampling)[0]);
+            let lanes = scan.slope.lanes(row, column / LANES * LANES, sampling);
+            found(column, row, lanes[column % LANES]);
         }
     }
 }
@@ -74,6 +76,7 @@ pub fn owned(face: &Face, first: [i32; 2], sampling: &Sampling, mut found: impl 
 #[cfg(test)]
 mod tests {
     use super::super::grid::{TILE_HEIGHT, TILE_WIDTH};
+    use super::super::plane::Plane;
     use super::*;
 
     fn random(state: &mut u64, n: i32) -> i32 {
@@ -86,7 +89,12 @@ mod tests {
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         let order = if area > 0 { [0, 1, 2] } else { [0, 2, 1] };
         let at = |k: usize| order.map(|o| p[o][k]);
-        (area != 0).then(|| Face::new(at(0), at(1), [0.5; 3], triangle, sampling, [usize::MAX; 2]))
+        (area != 0).then(|| deep(&at(0), &at(1), [0.5; 3], triangle, sampling))
+    }
+
+    fn deep(x: &[i32; 3], y: &[i32; 3], depth: [f32; 3], triangle: u32, sampling: &Sampling) -> Face {
+        let plane = Plane::on_grid(x, y, &depth.map(f64::from));
+        Face::new(*x, *y, depth, plane, triangle, sampling, [usize::MAX; 2])
     }
 
     /// The ownership rule in rational numbers: inside, or on a left or top edge.
@@ -166,10 +174,10 @@ mod tests {
                     .filter_map(|t| {
                         let corner = [0, 1].map(|_| random(&mut state, 16384));
                         let mut p = || corner.map(|c| c + random(&mut state, size) - size / 2);
-                        let mut f = face([p(), p(), p()], t, &sampling)?;
+                        let f = face([p(), p(), p()], t, &sampling)?;
                         let depth = random(&mut state, 50) as f32 / 50.0;
-                        f.depth = [0, 1, 2].map(|_| depth + random(&mut state, 3) as f32 / 100.0);
-                        Some(f)
+                        let depth = [0, 1, 2].map(|_| depth + random(&mut state, 3) as f32 / 100.0);
+                        Some(deep(&f.x, &f.y, depth, t, &sampling))
                     })
                     .collect();
                 let filled = |faces: &[Face]| {
@@ -193,9 +201,9 @@ mod tests {
             let faces: Vec<Face> = (0..300)
                 .filter_map(|t| {
                     let mut p = || [0, 1].map(|_| random(&mut state, 16000));
-                    let mut f = face([p(), p(), p()], t, &sampling)?;
-                    f.depth = [0, 1, 2].map(|_| random(&mut state, 1000) as f32 / 1000.0);
-                    Some(f)
+                    let f = face([p(), p(), p()], t, &sampling)?;
+                    let depth = [0, 1, 2].map(|_| random(&mut state, 1000) as f32 / 1000.0);
+                    Some(deep(&f.x, &f.y, depth, t, &sampling))
                 })
                 .collect();
             let (mut one, mut two) = (Tile::new(), Tile::new());

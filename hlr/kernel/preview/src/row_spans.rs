@@ -67,8 +67,7 @@ pub fn fill(tile: &mut Tile, face: &Face, first: [i32; 2], sampling: &Sampling) 
         let samples = tile.row(row);
         let mut column = from;
         while column < to {
-            // Eight lanes that begin with the span, or end with the tile.
-            let at = column.min(TILE_WIDTH - LANES);
+            let at = column / LANES * LANES;
             let z = scan.slope.lanes(row, at, sampling);
             let mut outside = [0i32; LANES];
             for (l, v) in outside.iter_mut().enumerate() {

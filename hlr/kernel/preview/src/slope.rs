@@ -17,22 +17,16 @@ pub struct Slope {
 impl Slope {
     #[inline(always)]
     pub fn new(face: &Face, first: [i32; 2], sampling: &Sampling) -> Slope {
-        let (x1, y1) = (f64::from(face.x[1] - face.x[0]), f64::from(face.y[1] - face.y[0]));
-        let (x2, y2) = (f64::from(face.x[2] - face.x[0]), f64::from(face.y[2] - face.y[0]));
-        let z0 = f64::from(face.depth[0]);
-        let (z1, z2) = (f64::from(face.depth[1]) - z0, f64::from(face.depth[2]) - z0);
         let step = f64::from(1i32 << sampling.shift);
-        let over = step / (x1 * y2 - x2 * y1);
-        let dx = (z1 * y2 - z2 * y1) * over;
-        let dy = (z2 * x1 - z1 * x2) * over;
-        let at = |f: i32, corner: i32| f64::from(f) + 0.5 - f64::from(corner) / step;
+        let plane = &face.plane;
+        let (dx, dy) = (plane.dx * step, plane.dy * step);
         let mut lanes = [0f32; LANES];
         for (l, v) in lanes.iter_mut().enumerate() {
             let shear = sampling.shear[l & 3] as f32 / 64.0;
             *v = dx as f32 * l as f32 + dy as f32 * shear;
         }
         Slope {
-            start: z0 + dx * at(first[0], face.x[0]) + dy * at(first[1], face.y[0]),
+            start: plane.start + dx * (f64::from(first[0]) + 0.5) + dy * (f64::from(first[1]) + 0.5),
             dx,
             dy,
             low: face.depth[0].min(face.depth[1]).min(face.depth[2]),
@@ -41,15 +35,39 @@ impl Slope {
         }
     }
 
-    /// Depth at eight columns of a row; the first is a multiple of four, or samples are not sheared.
+    /// Depth at eight columns of a row; the first is a multiple of eight. So the depth of a sample depends on the plane
+    /// and on the sample alone: faces in one plane are rounded alike.
     #[inline(always)]
     pub fn lanes(&self, row: usize, column: usize, sampling: &Sampling) -> [f32; LANES] {
-        let shear = f64::from(sampling.shear[row & 3]) / 64.0;
-        let start = (self.start + self.dy * row as f64 + self.dx * (column as f64 + shear)) as f32;
+        let start = self.start(row, column, sampling);
         let mut out = self.lanes;
         for v in &mut out {
             *v += start;
         }
+        self.within(out)
+    }
+
+    /// For samples that are not sheared, and eight lanes from any column on.
+    #[inline(always)]
+    pub fn shifted(&self, column: usize) -> Shifted<'_> {
+        let before = column % LANES;
+        let (mut lanes, mut later) = ([0f32; LANES], [0u32; LANES]);
+        for l in 0..LANES {
+            lanes[l] = self.lanes[(before + l) % LANES];
+            later[l] = if before + l < LANES { 0 } else { u32::MAX };
+        }
+        Shifted { slope: self, column: column - before, lanes, later }
+    }
+
+    /// Depth at a column from which eight lanes start.
+    #[inline(always)]
+    fn start(&self, row: usize, column: usize, sampling: &Sampling) -> f32 {
+        let shear = f64::from(sampling.shear[row & 3]) / 64.0;
+        (self.start + self.dy * row as f64 + self.dx * (column as f64 + shear)) as f32
+    }
+
+    #[inline(always)]
+    fn within(&self, mut out: [f32; LANES]) -> [f32; LANES] {
         for v in &mut out {
             *v = if *v > self.low { *v } else { self.low };
         }
@@ -57,6 +75,31 @@ impl Slope {
             *v = if *v < self.high { *v } else { self.high };
         }
         out
+    }
+}
+
+/// The depths of `Slope` at eight columns that lie in two chunks of lanes.
+pub struct Shifted<'a> {
+    slope: &'a Slope,
+    /// Where the first chunk starts.
+    column: usize,
+    lanes: [f32; LANES],
+    /// All bits are set in lanes of the second chunk.
+    later: [u32; LANES],
+}
+
+impl Shifted<'_> {
+    /// The depths in a row, `chunks` chunks further on.
+    #[inline(always)]
+    pub fn lanes(&self, row: usize, chunks: usize) -> [f32; LANES] {
+        let column = self.column + chunks * LANES;
+        let one = self.slope.start(row, column, &Sampling::CENTRES).to_bits();
+        let two = self.slope.start(row, column + LANES, &Sampling::CENTRES).to_bits();
+        let mut out = [0f32; LANES];
+        for (l, v) in out.iter_mut().enumerate() {
+            *v = f32::from_bits(one & !self.later[l] | two & self.later[l]) + self.lanes[l];
+        }
+        self.slope.within(out)
     }
 }
 
