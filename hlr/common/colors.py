@@ -44,14 +44,18 @@ def rgb_of(color: str) -> Rgb:
 def readable(color: str, background: str) -> str:
     """The colour, darkened or lightened until it can be told from the background; both #rrggbb."""
     ground = _luminance(rgb_of(background))
-    # Black against light backgrounds, white against dark ones: whichever differs more.
-    toward = 0 if ground > 0.179 else 255
+    toward = 255 if is_dark(rgb_of(background)) else 0
     for step in range(21):
         mixed = tuple(round(c + (toward - c) * step / 20) for c in rgb_of(color))
         light = _luminance(mixed)
         if (max(light, ground) + 0.05) / (min(light, ground) + 0.05) >= READABLE:
             return hex_of(mixed)
     return hex_of((toward,) * 3)
+
+
+def is_dark(rgb: tuple[int, ...]) -> bool:
+    """Whether white differs more from the colour than black does."""
+    return _luminance(rgb) <= 0.179
 
 
 def _luminance(rgb: tuple[int, ...]) -> float:

@@ -8,6 +8,9 @@ from functools import partial
 from time import perf_counter
 from typing import Any, Unpack
 
+import numpy as np
+import numpy.typing as npt
+
 from hlr import _kernel
 from hlr.common.clock import lap
 from hlr.common.colors import parse_color
@@ -41,8 +44,9 @@ from hlr.request.picture_effects import (
 )
 from hlr.request.styles import STYLES
 from hlr.scene.scene import Scene
+from hlr.shading.dark import LIGHT, dark_places
 from hlr.shading.lens import depth_step, frame_scale, lens
-from hlr.shading.lines import cues, pieces, pieces_by_depth
+from hlr.shading.lines import cues, ink_on, pieces, pieces_by_depth
 from hlr.shading.picture import Pixels, before_the_eye, empty_picture, first_faces, maps, shaded_picture
 from hlr.shading.scene import shaded_scene
 from hlr.source.model import Source
@@ -112,16 +116,18 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
     depth, ids = maps(scene, shaded, eye, options, unit)
     started = lap(clock, "picture", started)
     if effects.lines:
+        dark = dark_places(pixels) if effects.faces else None
         lines = line_options(options, None, placement.scale)
         image = image_of(scene, camera, placement)
         if effects.behind:
             planner_behind = Planner(drawing_effects(), lines)
             behind = without_glass(outlined(image, planner_behind), shaded.glass)
             drawing = session.drawing(Draft(behind, by_view(lines, camera, planner_behind), planner_behind))
-            _ink(pixels, drawing, eye, [BEHIND])
+            _ink(pixels, drawing, eye, [BEHIND], dark)
         planner_lines = Planner(drawing_effects(), lines)
         drawing = session.drawing(Draft(image, by_view(lines, camera, planner_lines), planner_lines))
-        _ink(pixels, drawing, eye, cues(background) if effects.cued else [INK])
+        over_faces = [INK] if effects.faces else [ink_on(background)]
+        _ink(pixels, drawing, eye, cues(background) if effects.cued else over_faces, dark)
         lap(clock, "edges", started)
     clock["total"] = sum(clock.values())
     strays = (note for note in placement.notes if note.code == "stray-parts")
@@ -144,10 +150,20 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
     )
 
 
-def _ink(pixels: Pixels, drawing: Drawing, eye: _kernel.Lens, inks: Sequence[tuple[int, int, int, int]]) -> None:
-    """Draw the lines over a picture, in place: in one ink, or in one ink per depth level, the farthest level first."""
+def _ink(
+    pixels: Pixels,
+    drawing: Drawing,
+    eye: _kernel.Lens,
+    inks: Sequence[tuple[int, int, int, int]],
+    dark: npt.NDArray[np.bool_] | None,
+) -> None:
+    """Draw the lines over a picture, in place: in one ink, or in one ink per depth level, the farthest level first.
+
+    dark (h, w): where the one ink is light instead; None: nowhere.
+    """
     pens = usual_pens(STYLES["iso"])
     widths = [pens.pen(line.kind, True).width for line in drawing.lines]
+    lighter = pixels.copy() if dark is not None else None
     for wide in sorted(set(widths)):
         lines = [line for line, own in zip(drawing.lines, widths, strict=True) if own == wide]
         levels = [pieces(lines, drawing.origin, PIXELS_PER_MM, eye.centre)]
@@ -155,6 +171,10 @@ def _ink(pixels: Pixels, drawing: Drawing, eye: _kernel.Lens, inks: Sequence[tup
             levels = pieces_by_depth(lines, drawing.origin, PIXELS_PER_MM, eye, len(inks))
         for ink, strokes in zip(inks, levels, strict=True):
             _kernel.stroke_picture(pixels, strokes, wide * PIXELS_PER_MM, ink)
+            if lighter is not None:
+                _kernel.stroke_picture(lighter, strokes, wide * PIXELS_PER_MM, (*LIGHT, ink[3]))
+    if dark is not None and lighter is not None:
+        pixels[dark] = lighter[dark]
 
 
 def _coarse(facts: Facts) -> Note:

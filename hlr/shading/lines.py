@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from hlr._kernel import Lens
+from hlr.common.colors import is_dark
 from hlr.drawing.curve import Arc, Bezier, raised
 from hlr.drawing.line import Line, Points
 
@@ -33,10 +34,19 @@ PALEST = 0.22
 """Share of its ink that the farthest line has."""
 
 
+def ink_on(background: tuple[int, ...]) -> tuple[int, int, int, int]:
+    """The ink of lines without faces: black, or white where the background is dark; black where it is transparent."""
+    ink = 255 if is_dark(_ground(background)) else 0
+    return (ink, ink, ink, 255)
+
+
+def _ground(background: tuple[int, ...]) -> tuple[int, ...]:
+    return background[:3] if background[3] == 255 else (255, 255, 255)
+
+
 def cues(background: tuple[int, ...]) -> list[tuple[int, int, int, int]]:
-    """Inks from far to near, opaque: black that fades toward the background, or toward white if that is transparent."""
-    ground = background[:3] if background[3] == 255 else (255, 255, 255)
-    ink = 255 if sum(ground) < 300 else 0
+    """Inks from far to near, opaque: that of `ink_on`, which fades toward the background."""
+    ground, ink = _ground(background), ink_on(background)[0]
     shares = [PALEST + (1.0 - PALEST) * k / (CUES - 1) for k in range(CUES)]
     r, g, b = ([round(share * ink + (1.0 - share) * c) for share in shares] for c in ground)
     return [(r[k], g[k], b[k], 255) for k in range(CUES)]

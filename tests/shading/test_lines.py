@@ -111,3 +111,13 @@ def test_depth_cued_lines_are_paler_with_distance():
 def test_looks_that_cannot_be_had_are_refused(options, sentence):
     with pytest.raises(hlr.OptionError, match=sentence):
         hlr.preview(cq.Workplane().box(1, 1, 1), **options)
+
+
+@pytest.mark.parametrize("background", ["black", "#223344", "navy", "white", "lime", "transparent"])
+@pytest.mark.parametrize("look", ["wireframe", "depth-cued"])
+def test_lines_without_faces_differ_from_their_background(look, background):
+    """They were black on black in a wireframe; in the other look they were white on bright green."""
+    block = cq.Workplane().box(20, 20, 20)
+    pixels = hlr.preview(block, view="iso", size=(200, 200), look=look, background=background).pixels
+    ink = 255 if background in ("black", "#223344", "navy") else 0
+    assert (np.abs(pixels[:, :, :3].astype(int) - ink).max(axis=2) < 40)[pixels[:, :, 3] > 200].sum() > 100
