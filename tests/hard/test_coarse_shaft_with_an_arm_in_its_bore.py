@@ -1,9 +1,9 @@
 """A shaft in a bore of its own radius, both meshes of coarse facets that are turned against one another, and an arm on
 the shaft that goes through the ring.
 
-Facets of shaft and bore cross along the whole ring, at seventy places, by little and at small angles: that is no line. The
-arm really passes through both ends of the ring, and its lines lead to the rims of the bore: so these are certain, and
-the crossings between them looked like gaps in a line that runs from rim to rim.
+Facets of shaft and bore cross along the whole ring, at seventy places, by little and at small angles: that is no line.
+The arm really passes through both ends of the ring, and its lines lead to the rims of the bore: so these are certain,
+and the crossings between them looked like gaps in a line that runs from rim to rim.
 """
 
 from __future__ import annotations
