@@ -11,6 +11,7 @@
 //!     `-. b .-'             `- b -'
 //! ```
 
+use super::listed_twice::ListedTwice;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 
@@ -40,7 +41,8 @@ pub struct Turned {
 
 /// Flips needles; `low`, in model units: a triangle lower than this has no normal that the coordinates support.
 ///
-/// An edge is flipped only where it has two triangles, oppositely oriented, and the other diagonal is no edge yet.
+/// An edge is flipped only where it has two triangles, oppositely oriented, and the other diagonal is no edge yet. Where
+/// triangles are listed from both sides, both sides are flipped.
 pub fn without_needles(points: &[[f64; 3]], triangles: &[[i32; 3]], low: f64) -> Turned {
     let shapes = Shapes { points, low };
     let needles: Vec<u32> = (0..triangles.len() as u32)
@@ -52,9 +54,10 @@ pub fn without_needles(points: &[[f64; 3]], triangles: &[[i32; 3]], low: f64) ->
         return Turned::default();
     }
     let mut work = Work::new(shapes, triangles, &needles);
-    work.run(&needles);
+    let first: Vec<u32> = needles.into_iter().filter(|&t| !work.listed_twice.comes_later(t)).collect();
+    work.run(&first);
     let mut turned = Turned::default();
-    for (t, now) in work.changed {
+    for (t, now) in work.with_copies() {
         turned.triangle.push(t);
         turned.corners.push(now.corners);
         turned.like.push(now.like);
@@ -112,6 +115,14 @@ struct Now {
     stood: [u32; 3],
 }
 
+impl Now {
+    /// The same from the other side.
+    fn reversed(self) -> Now {
+        let ([a, b, c], [i, j, k]) = (self.corners, self.stood);
+        Now { corners: [a, c, b], stood: [i, k, j], ..self }
+    }
+}
+
 /// The first two triangles at an edge, and how many there are.
 #[derive(Clone, Copy, Default)]
 struct Edge {
@@ -125,6 +136,8 @@ struct Work<'a> {
     changed: BTreeMap<u32, Now>,
     /// Corners of needles, and all edges that end there.
     near: HashSet<i32>,
+    /// Of triangles with such a corner. Only the first of each set is worked on.
+    listed_twice: ListedTwice,
     edges: HashMap<(i32, i32), Edge>,
 }
 
@@ -137,8 +150,9 @@ impl<'a> Work<'a> {
         let near: HashSet<i32> = needles.iter().flat_map(|&t| triangles[t as usize]).collect();
         let mut is_near = vec![false; shapes.points.len()];
         near.iter().for_each(|&v| is_near[v as usize] = true);
+        let listed_twice = ListedTwice::of(triangles, |corners| corners.iter().any(|&v| is_near[v as usize]));
         let mut edges: HashMap<(i32, i32), Edge> = HashMap::new();
-        for (t, corners) in triangles.iter().enumerate() {
+        for (t, corners) in triangles.iter().enumerate().filter(|(t, _)| !listed_twice.comes_later(*t as u32)) {
             for k in 0..3 {
                 let (a, b) = (corners[k], corners[(k + 1) % 3]);
                 if is_near[a as usize] || is_near[b as usize] {
@@ -150,7 +164,18 @@ impl<'a> Work<'a> {
                 }
             }
         }
-        Work { shapes, triangles, changed: BTreeMap::new(), near, edges }
+        Work { shapes, triangles, changed: BTreeMap::new(), near, listed_twice, edges }
+    }
+
+    /// What changed, with the copies of each triangle.
+    fn with_copies(self) -> BTreeMap<u32, Now> {
+        let mut all = self.changed;
+        for (first, copies) in &self.listed_twice.copies {
+            if let Some(&now) = all.get(first) {
+                all.extend(copies.iter().map(|c| (c.triangle, if c.reversed { now.reversed() } else { now })));
+            }
+        }
+        all
     }
 
     fn now(&self, t: u32) -> Now {
@@ -196,10 +221,14 @@ impl<'a> Work<'a> {
             return Found::Nothing;
         };
         let u = if one == t { two } else { one };
-        let neighbour = self.now(u);
-        let Some(k) = (0..3).find(|&k| neighbour.corners[k] == a && neighbour.corners[(k + 1) % 3] == c) else {
-            return Found::Nothing;
-        };
+        let mut neighbour = self.now(u);
+        let along = |of: &Now| (0..3).find(|&k| of.corners[k] == a && of.corners[(k + 1) % 3] == c);
+        // Of a triangle that is there from both sides, either may be listed first.
+        let other_side = along(&neighbour).is_none() && [t, u].iter().any(|&t| self.listed_twice.two_sided(t));
+        if other_side {
+            neighbour = neighbour.reversed();
+        }
+        let Some(k) = along(&neighbour) else { return Found::Nothing };
         let d = neighbour.corners[(k + 2) % 3];
         let known = self.near.contains(&b) || self.near.contains(&d);
         if d == b || !known || self.edges.contains_key(&key(b, d)) {
@@ -225,7 +254,8 @@ impl<'a> Work<'a> {
         let like = neighbour.like;
         let [from_a, from_c, from_d] = [0, 1, 2].map(|j| neighbour.stood[(k + j) % 3]);
         self.changed.insert(t, Now { corners: first, like, stood: [from_a, from_b, from_d] });
-        self.changed.insert(u, Now { corners: second, like, stood: [from_b, from_c, from_d] });
+        let second = Now { corners: second, like, stood: [from_b, from_c, from_d] };
+        self.changed.insert(u, if other_side { second.reversed() } else { second });
         self.edges.remove(&key(a, c));
         self.edges.insert(key(b, d), Edge { triangles: [t, u], count: 2 });
         self.hand_over(key(b, c), t, u);
@@ -301,6 +331,22 @@ mod tests {
         }
         triangles.reverse();
         assert_eq!(needles(&points, &after(&points, &triangles, 0.0), 0.0), 0);
+    }
+
+    #[test]
+    fn both_sides_are_flipped_whichever_is_listed_first() {
+        let (points, one_side) = chain();
+        let back = |t: &[i32; 3]| [t[0], t[2], t[1]];
+        for swapped in [1, 2, 3, 100] {
+            let listed = |(k, t): (usize, &[i32; 3])| if k % swapped == 0 { [back(t), *t] } else { [*t, back(t)] };
+            let triangles: Vec<[i32; 3]> = one_side.iter().enumerate().flat_map(listed).collect();
+            let now = after(&points, &triangles, 0.0);
+            assert_eq!((needles(&points, &triangles, 0.0), needles(&points, &now, 0.0)), (20, 0));
+            let up = |t: &&[i32; 3]| area(&points, &[**t]) > 0.0;
+            let front: Vec<[i32; 3]> = now.iter().filter(up).copied().collect();
+            assert_eq!(front.len(), one_side.len());
+            assert!((area(&points, &front) - area(&points, &one_side).abs()).abs() < 1e-6);
+        }
     }
 
     #[test]
