@@ -80,9 +80,9 @@ pub fn upright_of_twins(uv: &[[f64; 2]], triangles: &mut [[u32; 3]], twins: &mut
 /// Height divided by longest side. Below this a triangle is a needle.
 const NEEDLE: f64 = 1e-6;
 
-/// Flips the longest sides of needles, where the new triangles are less slim. In a plane, corners of the border may lie
-/// on one line except for rounding. A needle between them has no normal, and snapping the image to its grid may turn it
-/// over.
+/// Flips the longest sides of needles, where the new triangles are less slim and `fits` holds for the new edge. In a plane,
+/// and along a ruling, corners of the border may lie on one line except for rounding. A needle between them has no
+/// normal, and snapping the image to its grid may turn it over.
 ///
 /// ```text
 ///      p ---- q ---- r          p ---- q ---- r
@@ -90,7 +90,16 @@ const NEEDLE: f64 = 1e-6;
 ///          '-. .-'                 '-/   \-'
 ///             s                       s
 /// ```
-pub fn without_needles(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
+pub fn without_needles(uv: &[[f64; 2]], triangles: &mut [[u32; 3]], fits: impl Fn(u32, u32) -> bool) {
+    let is_needle = |t: &[u32; 3]| {
+        let p = t.map(|i| uv[i as usize]);
+        let square = |a: &[f64; 2], b: &[f64; 2]| (b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2);
+        let longest = square(&p[0], &p[1]).max(square(&p[1], &p[2])).max(square(&p[2], &p[0]));
+        area(&p[0], &p[1], &p[2]) <= NEEDLE * longest
+    };
+    if !triangles.iter().any(is_needle) {
+        return;
+    }
     // The height over the longest side divided by that side, and the number of that side.
     let slim = |t: [u32; 3]| {
         let p = t.map(|i| uv[i as usize]);
@@ -98,9 +107,6 @@ pub fn without_needles(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
         let longest = (1..3).fold(0, |best, k| if length(k) > length(best) { k } else { best });
         (area(&p[0], &p[1], &p[2]) / length(longest).powi(2).max(f64::MIN_POSITIVE), longest)
     };
-    if triangles.iter().all(|&t| slim(t).0 > NEEDLE) {
-        return;
-    }
     let mut twins = twins(triangles);
     for _ in 0..ROUNDS {
         let mut turned = false;
@@ -113,7 +119,7 @@ pub fn without_needles(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
             let (a, b) = (start(triangles, edge), start(triangles, twin));
             let (c, d) = (start(triangles, before_in(edge)), start(triangles, before_in(twin)));
             let least = |one: [u32; 3], other: [u32; 3]| slim(one).0.min(slim(other).0);
-            if c != d && least([c, d, b], [d, c, a]) > least(triangles[t], triangles[twin / 3]) {
+            if c != d && least([c, d, b], [d, c, a]) > least(triangles[t], triangles[twin / 3]) && fits(c, d) {
                 turn(triangles, &mut twins, edge, twin);
                 turned = true;
             }

@@ -63,7 +63,7 @@ fn upright(
         }
     };
     if let Surface::Plane(_) = surface {
-        without_needles(&outline.uv, &mut triangles);
+        without_needles(&outline.uv, &mut triangles, |_, _| true);
         return Some((triangles, stand_in, 0.0));
     }
     let cost = if let Surface::Spline(_) = surface { SPLINE_STEPS } else { 1 };
@@ -75,6 +75,7 @@ fn upright(
         let edges = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
         edges.fold(0.0f64, |most, [a, b]| if a < b { most.max(error(a, b)) } else { most })
     };
+    without_needles(&outline.uv, &mut triangles, |a, b| error(a, b) <= deflection);
     let mut most = worst(&triangles);
     if most > deflection && flip(&outline.uv, &mut triangles, &error, deflection) {
         most = worst(&triangles);
