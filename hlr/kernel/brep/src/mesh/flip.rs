@@ -1,7 +1,7 @@
 //! Edge flips: an inner edge becomes the other diagonal of its two triangles.
 
 use super::plane::{area, side};
-use hlr_exact::elementary::hypot;
+use crate::geometry::vector::{Vector, cross, dot, sub};
 
 /// Limit on the rounds over all edges.
 const ROUNDS: usize = 16;
@@ -80,9 +80,56 @@ pub fn upright_of_twins(uv: &[[f64; 2]], triangles: &mut [[u32; 3]], twins: &mut
 /// Height divided by longest side. Below this a triangle is a needle.
 const NEEDLE: f64 = 1e-6;
 
-/// Flips the longest sides of needles, where the new triangles are less slim and `fits` holds for the new edge. In a plane,
-/// and along a ruling, corners of the border may lie on one line except for rounding. A needle between them has no
-/// normal, and snapping the image to its grid may turn it over.
+/// The height of a triangle divided by its longest side, negative where it is turned over in (u, v); and the number of
+/// that side.
+type Slim = (f64, usize);
+
+/// How slim a triangle is in (u, v).
+pub fn slim_in_plane(uv: &[[f64; 2]]) -> impl Fn([u32; 3]) -> Slim {
+    |t| {
+        let p = t.map(|i| uv[i as usize]);
+        let (square, longest) = longest(|k, next| {
+            let [u, v] = [0, 1].map(|c| p[next][c] - p[k][c]);
+            u * u + v * v
+        });
+        (area(&p[0], &p[1], &p[2]) / square, longest)
+    }
+}
+
+/// How slim a triangle is in space.
+pub fn slim_in_space(uv: &[[f64; 2]], points: &[Vector]) -> impl Fn([u32; 3]) -> Slim {
+    |t| {
+        let p = t.map(|i| points[i as usize]);
+        let (square, longest) = longest(|k, next| {
+            let way = sub(&p[next], &p[k]);
+            dot(&way, &way)
+        });
+        let n = cross(&sub(&p[1], &p[0]), &sub(&p[2], &p[0]));
+        let [a, b, c] = t.map(|i| &uv[i as usize]);
+        let height = dot(&n, &n).sqrt() / square;
+        (if side(a, b, c) > 0.0 { height } else { -height }, longest)
+    }
+}
+
+/// The longest of three sides; the square of the length of one, from a corner to the next, is given by `square`.
+fn longest(square: impl Fn(usize, usize) -> f64) -> (f64, usize) {
+    let [a, b, c] = [square(0, 1), square(1, 2), square(2, 0)];
+    let most = a.max(b).max(c).max(f64::MIN_POSITIVE);
+    (
+        most,
+        if a >= most {
+            0
+        } else if b >= most {
+            1
+        } else {
+            2
+        },
+    )
+}
+
+/// Flips the longest sides of needles, where the new triangles are less slim and `fits` holds for both. Corners of the
+/// border may lie on one line except for rounding: in a plane, along a ruling, and in space on a flat surface that is
+/// written as a spline. A needle between them has no normal, and snapping the image to its grid may turn it over.
 ///
 /// ```text
 ///      p ---- q ---- r          p ---- q ---- r
@@ -90,23 +137,14 @@ const NEEDLE: f64 = 1e-6;
 ///          '-. .-'                 '-/   \-'
 ///             s                       s
 /// ```
-pub fn without_needles(uv: &[[f64; 2]], triangles: &mut [[u32; 3]], fits: impl Fn(u32, u32) -> bool) {
-    let is_needle = |t: &[u32; 3]| {
-        let p = t.map(|i| uv[i as usize]);
-        let square = |a: &[f64; 2], b: &[f64; 2]| (b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2);
-        let longest = square(&p[0], &p[1]).max(square(&p[1], &p[2])).max(square(&p[2], &p[0]));
-        area(&p[0], &p[1], &p[2]) <= NEEDLE * longest
-    };
-    if !triangles.iter().any(is_needle) {
+pub fn without_needles(
+    triangles: &mut [[u32; 3]],
+    slim: impl Fn([u32; 3]) -> Slim,
+    fits: impl Fn([[u32; 3]; 2]) -> bool,
+) {
+    if triangles.iter().all(|&t| slim(t).0 > NEEDLE) {
         return;
     }
-    // The height over the longest side divided by that side, and the number of that side.
-    let slim = |t: [u32; 3]| {
-        let p = t.map(|i| uv[i as usize]);
-        let length = |k: usize| hypot(p[(k + 1) % 3][0] - p[k][0], p[(k + 1) % 3][1] - p[k][1]);
-        let longest = (1..3).fold(0, |best, k| if length(k) > length(best) { k } else { best });
-        (area(&p[0], &p[1], &p[2]) / length(longest).powi(2).max(f64::MIN_POSITIVE), longest)
-    };
     let mut twins = twins(triangles);
     for _ in 0..ROUNDS {
         let mut turned = false;
@@ -119,7 +157,8 @@ pub fn without_needles(uv: &[[f64; 2]], triangles: &mut [[u32; 3]], fits: impl F
             let (a, b) = (start(triangles, edge), start(triangles, twin));
             let (c, d) = (start(triangles, before_in(edge)), start(triangles, before_in(twin)));
             let least = |one: [u32; 3], other: [u32; 3]| slim(one).0.min(slim(other).0);
-            if c != d && least([c, d, b], [d, c, a]) > least(triangles[t], triangles[twin / 3]) && fits(c, d) {
+            let new = [[c, d, b], [d, c, a]];
+            if c != d && least(new[0], new[1]) > least(triangles[t], triangles[twin / 3]) && fits(new) {
                 turn(triangles, &mut twins, edge, twin);
                 turned = true;
             }

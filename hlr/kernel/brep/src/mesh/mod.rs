@@ -144,6 +144,14 @@ fn proved(
     let uv: Vec<_> = made.corners.iter().map(|c| c.uv).collect();
     let in_chart = made.bent_chart.as_ref().map(|_| made.triangles.clone());
     flip::upright(&uv, &mut made.triangles);
+    if let Surface::Spline(_) = surface {
+        let points: Vec<_> = made.corners.iter().map(|c| c.point).collect();
+        let error = |new: [[u32; 3]; 2]| {
+            doubly_curved::largest_error(surface, &made.outline, &made.corners, new.into_iter(), deflection)
+        };
+        let slim = flip::slim_in_space(&uv, &points);
+        flip::without_needles(&mut made.triangles, slim, |new| error(new) <= deflection);
+    }
     let mut proof = check::proof(&made.outline, &uv, &made.stand_in, &made.triangles);
     if proof.is_none() && straightened(surface, &mut made, &uv, in_chart, deflection, steps) {
         proof = check::proof(&made.outline, &uv, &made.stand_in, &made.triangles);

@@ -6,7 +6,7 @@
 //! edges, so a bound for the edges holds everywhere.
 
 use super::delaunay::Delaunay;
-use super::flip::{flip, without_needles};
+use super::flip::{flip, slim_in_plane, without_needles};
 use super::outline::Outline;
 use super::progress::Progress;
 use super::sweep;
@@ -63,7 +63,7 @@ fn upright(
         }
     };
     if let Surface::Plane(_) = surface {
-        without_needles(&outline.uv, &mut triangles, |_, _| true);
+        without_needles(&mut triangles, slim_in_plane(&outline.uv), |_| true);
         return Some((triangles, stand_in, 0.0));
     }
     let cost = if let Surface::Spline(_) = surface { SPLINE_STEPS } else { 1 };
@@ -75,7 +75,8 @@ fn upright(
         let edges = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
         edges.fold(0.0f64, |most, [a, b]| if a < b { most.max(error(a, b)) } else { most })
     };
-    without_needles(&outline.uv, &mut triangles, |a, b| error(a, b) <= deflection);
+    // The edge that is new is the first of both.
+    without_needles(&mut triangles, slim_in_plane(&outline.uv), |[[a, b, _], _]| error(a, b) <= deflection);
     let mut most = worst(&triangles);
     if most > deflection && flip(&outline.uv, &mut triangles, &error, deflection) {
         most = worst(&triangles);
