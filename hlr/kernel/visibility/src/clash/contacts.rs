@@ -4,17 +4,16 @@
 //! surfaces may be tangent at a point.
 
 use super::depth::{Bodies, Depth, SLIGHT_ANGLE};
+use super::gaps::{Arms, Gap};
 use super::reach::Vec3;
 use super::search::Clash;
 use hlr_accuracy::{CONTACT_REAL, INTERSECTION_SHALLOW};
 use hlr_mesh::topology::components;
-use hlr_mesh::vector::{dot, sub};
+use hlr_mesh::vector::sub;
 
 /// Longest gap to close, in units of the square root of (contact tolerance times the smaller part's size). Surfaces
 /// with that size as radius, tangent at a point, differ by less than the tolerance over 2.8 of these units.
 const BRIDGE: f64 = 4.0;
-/// Cosine of the largest angle at which a gap goes on with the line that it continues.
-const ONWARD: f64 = 0.25;
 /// In sizes of the triangles involved. A figure in which a solid meets itself and that is no larger than this comes
 /// from the tessellation, not from the shape: triangles around one point of a curved face cross one another.
 const SMALL: f64 = 2.0;
@@ -136,21 +135,25 @@ fn crossing(bodies: &Bodies, all: &[Candidate], nodes: &Nodes, points: &[Vec3], 
         deepest[f] = deepest[f].max(all[i].depth.beyond);
         certain[f] |= all[i].depth.certain >= 0.0;
     }
-    let mut arms: Vec<Arm> = Vec::new();
+    let mut arms = Arms::default();
     for (&i, &f) in sure.iter().zip(&figure).filter(|(_, f)| deepest[**f] >= 0.0) {
         out[i] = true;
         // The rims of a shaft in its bore, both of coarse facets, are shallow figures: between them facets cross all along
         // the shaft, and that is no line.
         if certain[f] {
-            let [a, b] = nodes.of[i];
-            let [from, to] = all[i].segment.ends.map(|end| points[end as usize]);
-            arms.extend([Arm { node: a, at: from, far: to }, Arm { node: b, at: to, far: from }]);
+            arms.add(nodes.of[i], all[i].segment.ends.map(|end| points[end as usize]));
         }
     }
-    arms.sort_by_key(|arm| arm.node);
+    arms.sort();
     let (bridge, count) = figures(nodes, &slight);
     let extent = extents(all, &slight, &bridge, count, points);
-    let held = continued(all, nodes, (&slight, &bridge, count), &arms);
+    let gap = |(&i, &figure): (&usize, &usize)| Gap {
+        nodes: nodes.of[i],
+        ends: all[i].segment.ends.map(|end| points[end as usize]),
+        figure,
+        touch: all[i].depth.touch,
+    };
+    let held = arms.continued(slight.iter().zip(&bridge).map(gap), count);
     let mut deepest = vec![0.0f64; count];
     for (&i, &f) in slight.iter().zip(&bridge) {
         // Rounding makes faces in one plane cross everywhere. That joins lines over any distance, but is nowhere
@@ -164,59 +167,6 @@ fn crossing(bodies: &Bodies, all: &[Candidate], nodes: &Nodes, points: &[Vec3], 
     }
     all.iter().zip(&mut out).for_each(|(c, out)| *out &= !c.depth.flush(c.sine, bodies.deflection));
     out
-}
-
-/// A segment of a real line, seen from one of its ends.
-struct Arm {
-    node: i32,
-    at: Vec3,
-    far: Vec3,
-}
-
-/// Per figure of slight segments: whether it lies between two nodes of real lines and continues one of them. chosen: the
-/// segments, the figure of each, and the number of figures. arms: sorted by their nodes.
-///
-/// ```text
-///   ---.         .---                 |              The lines go on through a gap at a tangent point, but a line along
-///       ` . . . '                -----+. . . . . .   a shaft, where its facets cross those of the bore, begins square to
-///      continues                      |  does not    the rim.
-/// ```
-fn continued(
-    all: &[Candidate],
-    nodes: &Nodes,
-    (chosen, figure, count): (&[usize], &[usize], usize),
-    arms: &[Arm],
-) -> Vec<bool> {
-    let arms_at = |node: i32| {
-        let first = arms.partition_point(|arm| arm.node < node);
-        arms[first..].iter().take_while(move |arm| arm.node == node)
-    };
-    // A node belongs to one figure.
-    let mut held: Vec<(i32, usize, f64)> = Vec::new();
-    for (&i, &f) in chosen.iter().zip(figure) {
-        let meets = |node: &i32| arms_at(*node).next().is_some();
-        held.extend(nodes.of[i].into_iter().filter(meets).map(|node| (node, f, all[i].depth.touch)));
-    }
-    held.sort_by_key(|&(node, ..)| node);
-    held.dedup_by_key(|(node, ..)| *node);
-    let at = |node: i32| arms_at(node).next().map_or([0.0; 3], |arm| arm.at);
-    let (mut sum, mut number) = (vec![[0.0; 3]; count], vec![0.0; count]);
-    for &(node, f, _) in &held {
-        sum[f] = [0, 1, 2].map(|k| sum[f][k] + at(node)[k]);
-        number[f] += 1.0;
-    }
-    let mut found = vec![false; count];
-    for &(node, f, touch) in held.iter().filter(|&&(_, f, _)| number[f] > 1.0) {
-        let here = at(node);
-        let others = [0, 1, 2].map(|k| (sum[f][k] - here[k]) / (number[f] - 1.0));
-        let ahead = sub(&others, &here);
-        let onward = |arm: &Arm| {
-            let way = sub(&here, &arm.far);
-            dot(&way, &ahead) >= ONWARD * (dot(&way, &way) * dot(&ahead, &ahead)).sqrt()
-        };
-        found[f] |= dot(&ahead, &ahead) <= touch * touch || arms_at(node).any(onward);
-    }
-    found
 }
 
 /// Per figure of chosen segments: the longest side of its bounding box.

@@ -26,6 +26,7 @@ pub mod chord_ends;
 pub mod contacts;
 pub mod crossings;
 pub mod depth;
+mod gaps;
 pub mod height_field;
 pub mod planar_faces;
 pub mod planes;
