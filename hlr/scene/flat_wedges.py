@@ -57,11 +57,17 @@ def _is_reversed(one: Ints, other: Ints) -> npt.NDArray[np.bool_]:
 
 
 def _closed_around(triangles: Ints, some: npt.NDArray[np.intp], points: int) -> npt.NDArray[np.bool_]:
-    """(n,) whether along each side of these triangles as many triangles run one way as the other."""
+    """(n,) whether the surface goes on around these triangles as it should without them.
+
+    Along each side as many triangles run one way as the other, and on two sides at least there are others than the two
+    halves of the wedge. At a tip, where two faces meet at both sides of a corner, there are none on two sides: without
+    the wedge the part would be shorter.
+    """
     start, end = triangles.astype(np.int64), np.roll(triangles, -1, axis=1).astype(np.int64)
     side = np.minimum(start, end) * points + np.maximum(start, end)
     asked, place = np.unique(side[some], return_inverse=True)
     near = np.isin(side, asked)
     at, way = np.searchsorted(asked, side[near]), np.where(start < end, 1, -1)[near]
-    balance = np.bincount(at, way, len(asked))
-    return np.asarray((balance == 0)[place.reshape(-1, 3)].all(axis=1))
+    balance, number = np.bincount(at, way, len(asked)), np.bincount(at, minlength=len(asked))
+    place = place.reshape(-1, 3)
+    return np.asarray((balance == 0)[place].all(axis=1) & (np.count_nonzero(number[place] > 2, axis=1) >= 2))

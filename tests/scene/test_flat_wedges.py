@@ -54,3 +54,11 @@ def test_a_face_all_of_which_lies_on_another_is_no_wedge():
     faces = np.array([2, 1, 0, 0, 0, 1, 1, 1], np.int32)
     assert not flat_wedges(TENTS, faces, 5).any()
     assert not flat_wedges(np.zeros((0, 3), np.int32), np.zeros(0, np.int32), 0).any()
+
+
+def test_the_tip_of_a_pillow_is_no_wedge():
+    # Two faces that have both sides of the corner 0 in common: without its triangle the body would be shorter.
+    below = np.array([[0, 1, 2], [1, 3, 2]], np.int32)
+    above = np.array([[2, 1, 0], [2, 4, 1], [4, 3, 1], [2, 3, 4]], np.int32)
+    face = np.array([0, 0, 1, 1, 1, 1], np.int32)
+    assert not flat_wedges(np.concatenate([below, above]), face, 5).any()
