@@ -6,13 +6,15 @@ label takes the place of that one's.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from hlr.drawing.notes import Note
+from hlr.errors import counted
 from hlr.source.cad.parts import Leaf
 from hlr.source.freecad.colors import Look, look_of, look_of_link
 from hlr.source.freecad.document import Document, Object
+from hlr.source.freecad.properties import DamagedError, Properties
 from hlr.source.freecad.shapes import Shapes
 from hlr.source.transforms import IDENTITY, MatrixRows, compose
 
@@ -21,6 +23,13 @@ MAX_DEPTH = 100
 
 MAX_LEAVES = 200_000
 """Instances of shapes in one document: arrays of arrays have no other end."""
+
+MAX_VISITS = 1_000_000
+"""Objects that are followed in one document, each as often as groups and links lead to it. Groups that hold one
+another have no other end, for almost any number of ways leads through them."""
+
+_MOST_NAMED = 5
+"""Objects that one note names."""
 
 
 class TooManyError(ValueError):
@@ -38,6 +47,7 @@ class _Context:
     look    a colour that a link gives
     label   a label that takes the place of its own
     path    the way on to the one object within it that a link asks for; empty: all that is in it
+    beside  the names of the objects that were met in the group around it that places them, and in its folders
     """
 
     place: MatrixRows = IDENTITY
@@ -47,6 +57,7 @@ class _Context:
     look: Look | None = None
     label: str = ""
     path: tuple[str, ...] = ()
+    beside: set[str] = field(default_factory=set)
 
 
 class Tree:
@@ -62,19 +73,23 @@ class Tree:
         self.document, self.shapes = document, shapes
         self.leaves: list[Leaf] = []
         self.sketches: list[Leaf] = []
-        self.notes: list[Note] = []
         self.left_hidden = 0
+        self._left_out: dict[str, None] = {}
+        self._without_colors: dict[str, None] = {}
+        self._deep: dict[str, None] = {}
+        self._visits = 0
         self._hidden = hidden
         self._made_of = set(_ingredients(document))
+        self._group: dict[str, list[str]] = {}
         parents = {name: thing for thing in document.objects.values() for name in _members(thing)}
         if only is None:
             for thing in document.objects.values():
                 if thing.name not in parents and self._is_shown(thing):
                     self._visit(thing, _Context())
-            return
-        for name in only:
+        for name in only or ():
             if name in document.objects:
                 self._visit(document.objects[name], _Context(place=_place_around(name, parents)))
+        self.notes = list(self._told())
 
     def _is_shown(self, thing: Object) -> bool:
         if thing.name in self._made_of and (self._hidden or not self.document.has_view):
@@ -86,21 +101,29 @@ class Tree:
 
     def _visit(self, thing: Object, context: _Context) -> None:
         label = context.label or thing.label
-        if thing.name in context.above or len(context.above) >= MAX_DEPTH:
+        if thing.name in context.above:
             self._leave_out(f'"{label}" leads back to itself and was left out.')
+            return
+        if len(context.above) >= MAX_DEPTH:
+            self._deep[label] = None
+            return
+        self._visits += 1
+        if self._visits > MAX_VISITS:
             return
         inner = replace(
             context, names=(*context.names, label), above=(*context.above, thing.name), placed=True, label=""
         )
         if _is_link(thing):
-            self._link(
-                thing, replace(inner, place=_own_place(thing, context), look=context.look or look_of_link(thing.view))
-            )
+            look = context.look or self._look(look_of_link, thing, "/".join(inner.names))
+            self._link(thing, replace(inner, place=_own_place(thing, context), look=look))
         elif thing.type in _AIDS:
             return
-        elif (members := _members(thing)) and (context.path or thing.type not in _BODIES):
-            place = _own_place(thing, context) if _moves(thing) else context.place
-            self._members(members, replace(inner, place=place))
+        elif (members := self._members_of(thing)) and (context.path or thing.type not in _BODIES):
+            if _moves(thing):
+                inner = replace(inner, place=_own_place(thing, context), beside=set())
+            else:
+                inner = replace(inner, place=context.place)
+            self._members(members, inner)
         elif context.path:
             self._leads_nowhere(label)
         elif "Shape" in thing.values:
@@ -115,7 +138,10 @@ class Tree:
         in_folders = self._in_folders(names)
         for name in names:
             thing = self.document.objects.get(name)
-            if thing is not None and name not in in_folders and self._is_shown(thing):
+            if thing is None or name in in_folders or (name in context.beside and name not in context.above):
+                continue
+            if self._is_shown(thing):
+                context.beside.add(name)
                 self._visit(thing, context)
 
     def _follow(self, names: list[str], context: _Context) -> None:
@@ -132,11 +158,11 @@ class Tree:
         """The members that lie in folders among them: a part lists what is in its folders beside these once more."""
         things = ((name, self.document.objects.get(name)) for name in names)
         folders = {
-            name: _members(thing)
+            name: self._members_of(thing)
             for name, thing in things
             if thing is not None and _is_folder(thing) and (thing.visible or self._hidden)
         }
-        inner = {name for members in folders.values() for name in members}
+        inner = set[str]().union(*folders.values())
         # Folders that hold one another are in none that is followed.
         ahead, found = [name for name in folders if name not in inner], set[str]()
         while ahead:
@@ -157,7 +183,7 @@ class Tree:
             for number, name in enumerate(elements):
                 element = self.document.objects.get(name)
                 if element is not None and (self._hidden or shown[number : number + 1] != "0"):
-                    self._visit(element, context)
+                    self._visit(element, replace(context, beside=set()))
             return
         target, path = self._target(thing, label)
         if target is None:
@@ -166,7 +192,7 @@ class Tree:
         context = replace(context, names=context.names[:-1], label=label, placed=values.flag("LinkTransform", False))
         count = values.count("ElementCount") or values.count("Count")
         if not count:
-            self._visit(target, replace(context, path=(*path, *context.path)))
+            self._visit(target, replace(context, path=(*path, *context.path), beside=set()))
             return
         if context.path:
             self._leads_nowhere(label)
@@ -179,7 +205,7 @@ class Tree:
             place = compose(context.place, places[number]) if number < len(places) else context.place
             if number < len(scales):
                 place = compose(place, _scaling(*scales[number]))
-            self._visit(target, replace(context, place=place))
+            self._visit(target, replace(context, place=place, beside=set()))
 
     def _target(self, thing: Object, label: str) -> tuple[Object | None, tuple[str, ...]]:
         """What a link refers to, and the way on to what it shows of it; None, with a note, where it cannot be drawn."""
@@ -208,7 +234,7 @@ class Tree:
         try:
             if self.shapes.of(thing) is None:  # as of an empty body
                 return
-            look = context.look or look_of((tip or thing).view)
+            look = context.look or self._look(look_of, tip or thing, name)
             leaf = self.shapes.leaf(thing, name, context.place, context.placed, look)
         except ValueError as error:
             self._leave_out(f'"{name}" was left out: its shape {error}.')
@@ -218,10 +244,34 @@ class Tree:
     def _leads_nowhere(self, label: str) -> None:
         self._leave_out(f'"{label}" is a link to what its target does not hold, and was left out.')
 
+    def _look(self, read: Callable[[Properties], Look | None], thing: Object, name: str) -> Look | None:
+        """The colours of an object, which the tree calls `name`; None, with a note, where they are damaged."""
+        try:
+            return read(thing.view)
+        except DamagedError as error:
+            self._without_colors[f'"{name}" is drawn without its colours: {error}.'] = None
+            return None
+
+    def _members_of(self, thing: Object) -> list[str]:
+        """What is in a group; read once."""
+        if thing.name not in self._group:
+            self._group[thing.name] = _members(thing)
+        return self._group[thing.name]
+
     def _leave_out(self, text: str) -> None:
-        note = Note("part-left-out", text)
-        if note not in self.notes:
-            self.notes.append(note)
+        self._left_out[text] = None
+
+    def _told(self) -> Iterator[Note]:
+        yield from (Note("part-left-out", text) for text in self._left_out)
+        if self._deep:
+            named = ", ".join(f'"{label}"' for label in list(self._deep)[:_MOST_NAMED])
+            more = " and others" if len(self._deep) > _MOST_NAMED else ""
+            what = f"{counted(len(self._deep), 'object')} at the end of more than {MAX_DEPTH} groups and links"
+            yield Note("part-left-out", f"{what} left out: {named}{more}.")
+        if self._visits > MAX_VISITS:
+            text = f"Groups and links lead to more than {MAX_VISITS} objects: those that come later were left out."
+            yield Note("part-left-out", text)
+        yield from (Note("colors-left-out", text) for text in self._without_colors)
 
 
 def _own_place(thing: Object, context: _Context) -> MatrixRows:
