@@ -1,4 +1,4 @@
-"""What a script reads beside its modules: files that it opens, and modules that it looks for and does not find.
+"""What a script reads beside its modules: files that it opens, and files and modules that it looks for in vain.
 
 Files count that lie below the folder of the batch or that of the script. They are told by Python itself as they are
 opened, and by the readers of OpenCASCADE. What a script writes is its own, and does not count.
@@ -49,13 +49,12 @@ class FilesRead:
     @property
     def files(self) -> list[Path]:
         """Files that were read, not written, and are still there."""
-        names = (_source(name) for name in self._read if name not in self._written)
-        return [path for path in dict.fromkeys(Path(name).resolve() for name in names) if self._counts(path)]
+        return [path for path in self._opened() if path.is_file()]
 
     @property
     def missed(self) -> list[Path]:
-        """Files that are not there, and would be imported if they were."""
-        return [path for path in self._sought if not path.exists()]
+        """Files that are not there, and would be read or imported if they were."""
+        return [path for path in dict.fromkeys((*self._opened(), *self._sought)) if not path.exists()]
 
     def opened(self, file: Any, mode: Any, flags: Any) -> None:
         """A file is opened, as of the audit event `open`."""
@@ -68,6 +67,10 @@ class FilesRead:
         else:
             self._read.setdefault(name)
 
+    def renamed(self, file: Any) -> None:
+        """A file gets this name, as of the audit event `os.rename`."""
+        self._written.add(os.path.abspath(os.fsdecode(file)))
+
     def sought(self, name: str, path: Sequence[str] | None, importer: str) -> None:
         """A module was sought in these folders, and not found. importer: the file that asks for it."""
         if self._is_installed(Path(importer).resolve()):
@@ -78,9 +81,14 @@ class FilesRead:
                 last = name.rpartition(".")[2]
                 self._sought |= dict.fromkeys((place / f"{last}.py", place / last / "__init__.py"))
 
+    def _opened(self) -> list[Path]:
+        """The files that count of those that were opened to read them, whether they are there or not."""
+        names = (_source(name) for name in self._read if name not in self._written)
+        paths = dict.fromkeys(path for name in names if (path := _resolved(name)) is not None)
+        return [path for path in paths if self._counts(path)]
+
     def _counts(self, path: Path) -> bool:
-        inside = any(path.is_relative_to(each) for each in self._folders)
-        return inside and path.is_file() and not self._is_installed(path)
+        return any(path.is_relative_to(each) for each in self._folders) and not self._is_installed(path)
 
 
 @contextmanager
@@ -109,9 +117,12 @@ class _State:
 
 
 def _hook(event: str, arguments: tuple[Any, ...]) -> None:
-    if event == "open" and _State.active is not None:
+    if event in ("open", "os.rename") and _State.active is not None:
         with suppress(Exception):  # whatever a script opens, it has to come as far as without this
-            _State.active.opened(*arguments)
+            if event == "open":
+                _State.active.opened(*arguments)
+            else:
+                _State.active.renamed(arguments[1])
 
 
 class _LastFinder:
@@ -153,6 +164,16 @@ def _watch(owner: Any, method: str) -> None:
         return read(*arguments, **named)
 
     setattr(owner, method, staticmethod(told) if method.endswith("_s") else told)
+
+
+def _resolved(name: str) -> Path | None:
+    """The path of a file; None where no file can have this name, as a text that a script takes for one at first."""
+    try:
+        path = Path(name).resolve()
+        path.exists()
+    except (OSError, RuntimeError, ValueError):  # too long, a link that leads back to itself, a character that is none
+        return None
+    return path
 
 
 def _source(name: str) -> str:

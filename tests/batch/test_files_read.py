@@ -58,6 +58,43 @@ def test_modules_that_are_not_there_are_noted_with_the_places_where_they_would_b
     assert of_package == [], "what a package tries to import is its own affair"
 
 
+def test_files_that_are_not_there_are_noted(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+    def work():
+        for name in ("settings.json", "packages/a.json", str(tmp_path.parent / "elsewhere.json")):
+            with pytest.raises(FileNotFoundError):
+                Path(name).read_text()
+
+    found = noted(tmp_path, work)
+    assert (found.files, found.missed) == ([], [tmp_path / "settings.json"])
+
+
+def test_a_file_that_gets_its_name_when_it_is_whole_was_written(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+    def work():
+        Path("new.tmp").write_text("1")
+        os.replace("new.tmp", "new.json")
+        Path("new.json").read_text()
+
+    found = noted(tmp_path, work)
+    assert (found.files, found.missed) == ([], [])
+
+
+def test_what_no_file_can_be_called_is_left_out(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("loop").symlink_to("loop")
+
+    def work():
+        for name in ("x" * 5000, "loop"):
+            with pytest.raises(OSError):
+                Path(name).read_text()
+
+    found = noted(tmp_path, work)
+    assert (found.files, found.missed) == ([], [])
+
+
 SCRIPT = """
 import importlib.util, json, pathlib
 import cadquery as cq
