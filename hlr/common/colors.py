@@ -25,6 +25,8 @@ def parse_color(text: str) -> tuple[int, int, int, int]:
         return (*rgb_of(word), 255)
     try:
         red, green, blue, opacity = _names().getcolor(word, "RGBA")
+        if not all(0 <= channel <= 255 for channel in (red, green, blue, opacity)):
+            raise ValueError  # Pillow lets rgb(300,0,0) pass
     except ValueError:
         raise OptionError(f"{text!r} is no colour: give a CSS name such as white, #rrggbb, or transparent") from None
     return (int(red), int(green), int(blue), int(opacity))

@@ -14,10 +14,8 @@ from hlr.drawing.drawing import Drawing
 from hlr.errors import WriteError
 from hlr.request.style_check import DPI, MOST_PIXELS, MOST_PIXELS_A_SIDE
 from hlr.writers.pdf import Sheet, document
-from hlr.writers.png import encoded
+from hlr.writers.png import MM_PER_INCH, encoded
 from hlr.writers.strokes import Strokes, strokes
-
-MM_PER_INCH = 25.4
 
 
 def drawing_png(drawing: Drawing) -> bytes:

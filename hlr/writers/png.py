@@ -13,11 +13,14 @@ import numpy as np
 
 from hlr.drawing.picture import Picture
 from hlr.errors import WriteError
+from hlr.request.picture_effects import PIXELS_PER_MM
 
 NOTHING = 65535
 """In a depth map: nothing is seen there."""
 
 FARTHEST = 65534
+
+MM_PER_INCH = 25.4
 
 
 def picture_png(picture: Picture) -> bytes:
@@ -68,7 +71,7 @@ def _encoded(picture: Picture, pixels: Any, more: dict[str, str]) -> bytes:
     if view.eye is not None and view.fov is not None:
         told["Eye"] = ",".join(f"{c:.9g}" for c in view.eye)
         told["Field of view"] = f"{view.fov:.6g} degrees"
-    return encoded(_pillow("Image").fromarray(pixels), told)
+    return encoded(_pillow("Image").fromarray(pixels), told, PIXELS_PER_MM * MM_PER_INCH)
 
 
 def encoded(image: Any, told: dict[str, str], dpi: float | None = None) -> bytes:

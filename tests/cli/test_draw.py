@@ -115,6 +115,8 @@ def test_single_options_override_the_style(hlr_command):
         (["--color", '"/><script>'], "--color needs a colour such as black"),
         (["--size", "800x600", "--dpi", "100"], "--size and --dpi contradict one another"),
         (["--background", "papier"], "--background needs a colour such as white"),
+        (["--background", "rgb(300,0,0)"], "--background needs a colour such as white"),
+        (["--color", "hsl(0,100%,150%)"], "--color needs a colour such as black"),
         (["-o", "a.dwg"], "use .svg, .pdf, "),
         (["-o", "none/a.svg"], "the folder none does not exist"),
         (["-o", "{name}.svg"], "unknown field {name}"),

@@ -75,6 +75,11 @@ def test_what_a_picture_shows_is_kept_in_it(picture):
     assert np.array_equal(np.asarray(image), picture.pixels[:, :, :3])
 
 
+def test_files_state_four_pixels_a_millimetre(picture):
+    for data in (png.picture_png(picture), png.depth_png(picture), png.ids_png(picture)):
+        assert decoded(data).info["dpi"] == pytest.approx((101.6, 101.6))
+
+
 @pytest.mark.slow
 def test_the_same_bytes_every_time_and_with_any_number_of_threads(tmp_path):
     part = cq.Workplane().box(10, 10, 10).edges().fillet(2).faces(">Z").workplane().hole(3)

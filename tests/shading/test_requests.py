@@ -17,7 +17,7 @@ def test_sizes_that_cannot_be(size):
         hlr.preview(box(), size=size)
 
 
-@pytest.mark.parametrize("color", ["blurple", "#12", "", 7])
+@pytest.mark.parametrize("color", ["blurple", "#12", "", 7, "rgb(0,256,0)", "hsv(0,0%,150%)"])
 def test_colours_that_are_none(color):
     with pytest.raises(hlr.OptionError, match="colour"):
         hlr.preview(box(), background=color)

@@ -54,6 +54,8 @@ def _named(text: str) -> ColorOpacity:
 
     try:
         found = ImageColor.getrgb(text.strip())
+        if not all(0 <= channel <= 255 for channel in found):
+            return None, 1.0  # Pillow lets rgb(300,0,0) pass
     except ValueError:
         from OCP.Quantity import Quantity_ColorRGBA
 

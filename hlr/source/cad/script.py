@@ -215,7 +215,7 @@ def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter]) -> d
         raise SourceError(f"{path.name}{where}: SyntaxError: {error.msg}.") from None
     except SystemExit as error:
         if error.code not in (None, 0) and not showing.shown:
-            raise SourceError(f"{path.name} left with exit code {error.code}, and had shown nothing.") from None
+            raise SourceError(_left_early(path, error.code, values)) from None
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # whatever a script raises, the caller gets one sentence
@@ -226,6 +226,19 @@ def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter]) -> d
         if working_folder is not None:
             os.chdir(working_folder)
     return values
+
+
+def _left_early(path: Path, code: object, values: dict[str, Any]) -> str:
+    """One sentence on a script that left by sys.exit(code), and had shown nothing. code: a number, or a text."""
+    how = f"exit code {code}" if isinstance(code, int) else f'the message "{" ".join(str(code).split())}"'
+    shapes = list(_shapes(values))
+    if not shapes:
+        return f"{path.name} left with {how}, and had shown nothing."
+    name = _RESULT_VARIABLE if _RESULT_VARIABLE in shapes else shapes[-1]
+    return (
+        f'{path.name} left with {how}: its variable "{name}" may be unfinished, and is not drawn; what it shows by '
+        "show_object(shape) before it leaves is."
+    )
 
 
 def _working_folder() -> str | None:
