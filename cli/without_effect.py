@@ -145,9 +145,10 @@ def _for_hidden_lines(asked: Asked) -> str:
         if names_a_page(values["source"], values["page"]):
             return ""
         method = PROJECTION_METHODS.get(values["arrange"] or "")
-        if values["section"] and method is None and _all_cut(values):
+        views = values["views"] or (cast("tuple[View, ...]", method.usual) if method else ())
+        views = _not_cut(views, values) if values["section"] else views or ("iso",)
+        if not views:
             return "has no effect: sections have no hidden lines, unless --hidden asks for them"
-        views: tuple[View, ...] = values["views"] or (cast("tuple[View, ...]", method.usual) if method else ("iso",))
         in_perspective = values["perspective"] or any(values[name] is not None for name in ("eye", "target", "fov"))
         if not in_perspective and not all(pictorial(directed(view)[1]) for view in views):
             return ""
@@ -155,13 +156,12 @@ def _for_hidden_lines(asked: Asked) -> str:
     return "has no effect: --no-hidden leaves the hidden lines out"
 
 
-def _all_cut(values: Mapping[str, Any]) -> bool:
-    """Whether all views are sections."""
+def _not_cut(views: tuple[View, ...], values: Mapping[str, Any]) -> tuple[View, ...]:
+    """Of views that are asked for, those that are no sections; and those that are drawn whole besides theirs."""
     from hlr.request.directions import directed
 
-    return not values["whole"] and {directed(view)[0] for view in values["views"]} <= {
-        name for name, _ in values["section"]
-    }
+    cut = {name for name, _ in values["section"]}
+    return (*(view for view in views if directed(view)[0] not in cut), *values["whole"])
 
 
 def _without(option: str, why: str) -> Callable[[Asked], str]:

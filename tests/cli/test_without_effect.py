@@ -81,7 +81,18 @@ def test_a_colour_of_hidden_lines_that_are_not_drawn_is_noted(hlr_command):
     assert notes("--view", "top", "--no-hidden") == [
         "--hidden-color has no effect: --no-hidden leaves the hidden lines out"
     ]
+    cut = ("--section", "front@0.5")
+    assert notes(*cut) == notes(*cut, "--view", "front") == [
+        "--hidden-color has no effect: sections have no hidden lines, unless --hidden asks for them"
+    ]
+    assert notes(*cut, "--view", "iso") == pictorial
+    assert notes(*cut, "--view", "top") == notes(*cut, "--hidden") == []
     assert notes("--hidden") == notes("--view", "iso", "--view", "top") == notes("--view", "0,0,1") == []
+
+
+def test_a_view_that_is_drawn_whole_besides_its_section_has_hidden_lines(hlr_real):
+    asked = ("draw", STEP, "-o", "{view}.svg", "--hidden-color", "red", "--section", "front", "--whole", "front")
+    assert told(hlr_real(*asked)) == told(hlr_real(*asked, "--view", "iso")) == []
 
 
 def test_what_a_plan_and_a_preview_do_without_is_noted(hlr_real):
