@@ -20,6 +20,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
+from typing import cast
 
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.lines import held
@@ -28,13 +29,17 @@ from hlr.drawing.printed import printed
 from hlr.drawing.scale import ratio
 from hlr.drawing.sheet import SheetView
 from hlr.errors import counted
-from hlr.request.directions import NAMED
+from hlr.request.directions import NAMED, axes, directed
+from hlr.request.options import View
 from hlr.writers.number import number
 from hlr.writers.strokes import Inked, Strokes, strokes
 
 # Characters that XML 1.0 cannot carry, escaped or not.
 _SPECIAL = re.compile("[^ -~]|[&<>\"']")
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+
+EQUAL = 1e-6
+"""Difference of two unit vectors that counts as none."""
 
 
 def svg(drawing: Drawing) -> bytes:
@@ -171,7 +176,8 @@ def _metadata(drawing: Drawing) -> str:
 
 
 def stated_view(drawing: Drawing) -> str:
-    """What a PDF or DXF says of a view that its lines do not tell: a section, a window, perspective, any direction.
+    """What a PDF or DXF says of a view that its lines do not tell: a section, a window, perspective, any direction, or
+    another up than the usual one.
 
     "view=front; direction=0 -1 0; ...", as the metadata of an SVG; "views=4" of a page; empty: a whole view that has a
     name.
@@ -179,10 +185,17 @@ def stated_view(drawing: Drawing) -> str:
     if drawing.sheet is not None:
         return f"views={len(drawing.sheet.views)}" if len(drawing.sheet.views) > 1 else ""
     view = drawing.view
-    told = drawing.section is None and drawing.window is None and view.eye is None and view.name in NAMED
-    if told:
+    whole = drawing.section is None and drawing.window is None and view.eye is None
+    if whole and view.name in NAMED and _has_usual_up(drawing):
         return ""
     return "; ".join(f"{key}={value}" for key, value in {"view": view.name, **_camera(drawing)}.items())
+
+
+def _has_usual_up(drawing: Drawing) -> bool:
+    """Whether a view that has a name shows up what it usually does."""
+    _, direction, named_up = directed(cast(View, drawing.view.name))
+    up = [sum(a * b for a, b in zip(row, drawing.view.up, strict=True)) for row in drawing.up_axis]
+    return all(abs(a - b) < EQUAL for a, b in zip(up, axes(direction, named_up)[1], strict=True))
 
 
 def _camera(drawing: Drawing) -> dict[str, str]:

@@ -56,6 +56,15 @@ def test_the_view_that_a_drawing_states_is_drawn(how, ending, model, tmp_path):
     assert not compare(path, step().apply_scale(1.1)).same
 
 
+@pytest.mark.parametrize("ending", ["pdf", "dxf"])
+def test_a_named_view_that_is_turned_is_stated(ending, model, tmp_path):
+    turned = hlr.draw(model, view="top", up=(1, 0, 0), scale=1.5).save(tmp_path / f"turned.{ending}")
+    assert compare(turned, model).same
+    assert b"direction=" in turned.read_bytes()
+    usual = hlr.draw(model, view="top", up=(0, 2, 0), scale=1.5).save(tmp_path / f"usual.{ending}")
+    assert b"direction=" not in usual.read_bytes()
+
+
 def test_a_view_is_stated_in_the_axes_of_the_model(tmp_path):
     """glTF is in metres, and y is up."""
     path = tmp_path / "step.glb"
