@@ -163,7 +163,9 @@ TIME_LIMIT = click.option(
 )
 
 RUN = (
-    click.option("--threads", type=Whole(0), metavar="N", default=0, help="How many at most; 0: one for each core. Default: 0."),
+    click.option(
+        "--threads", type=Whole(0), metavar="N", default=0, help="How many at most; 0: one for each core. Default: 0."
+    ),
     click.option("--strict", is_flag=True, help="Warnings are errors: nothing is written."),
 )
 

@@ -7,10 +7,10 @@ from hlr.drawing.pens import usual_pens_of
 from hlr.drawing.projection_symbol import projection_symbol
 
 
-def printed(drawing: Drawing, solid: bool = False) -> str:
+def printed(drawing: Drawing, solid: bool = False, marks: bool = True) -> str:
     """SVG elements in millimetres from the page's upper left corner; empty where nothing is printed.
 
-    solid: for formats that know no currentColor.
+    solid: for formats that know no currentColor. marks: with those of sections.
     """
     sheet = drawing.sheet
     if sheet is None:
@@ -20,13 +20,11 @@ def printed(drawing: Drawing, solid: bool = False) -> str:
     pens, page = usual_pens_of(drawing), drawing.area
     pen, wide = pens.pen("smooth", True), pens.pen("sharp", True)
     color = wide.solid if solid else wide.color
-    marks = ""
-    if sheet.marks:
+    cuts = ""
+    if marks and sheet.marks:
         from hlr.drawing.section_marks import marks_svg
 
-        marks = marks_svg(sheet.marks, page.height, color, (wide.width, pen.width))
+        cuts = marks_svg(sheet.marks, page.height, color, (wide.width, pen.width))
     if sheet.template:
-        return sheet.template + marks
-    return marks + projection_symbol(
-        sheet.method, page.width, page.height, pen.solid if solid else pen.color, pen.width
-    )
+        return sheet.template + cuts
+    return cuts + projection_symbol(sheet.method, page.width, page.height, pen.solid if solid else pen.color, pen.width)

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Bounds
+from hlr.drawing.printed import printed
 from hlr.writers.dxf_entities import APPLICATION, Target, entities, rounded_length
 from hlr.writers.dxf_fill import hatch
 from hlr.writers.dxf_layers import CONTRAST, FILL, Layers
@@ -55,6 +56,11 @@ def dxf(drawing: Drawing, unit: int = MILLIMETRES) -> bytes:
         _set_header(document, drawing, modern, unit)
         places = Layers(document, drawing, modern, true_colors).tags()
         model = document.modelspace()
+        if under := printed(drawing, solid=True, marks=False):
+            from hlr.writers.dxf_template import add_template
+
+            page = _page(drawing)
+            add_template(document, under, page.x0, page.y1, modern, true_colors)
         if drawing.fill is not None and modern:
             document.layers.add(FILL, color=CONTRAST)
             hatch(model, painted(drawing, drawing.fill), FILL)

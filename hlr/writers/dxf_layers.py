@@ -30,6 +30,9 @@ FILL = "FILL"
 MARKS = "SECTION_MARKS"
 """The layer of cutting lines, and of the names of sections."""
 
+TEMPLATE = "TEMPLATE"
+"""The layer of what a page has printed on it: a frame, a title block."""
+
 CONTRAST = 7
 """Number of the colour that is black on white and white on black."""
 
@@ -64,7 +67,9 @@ class Layers:
     true_colors: bool
     looks: dict[str, Look] = field(default_factory=dict)
     named: dict[str, str] = field(default_factory=dict)
-    taken: set[str] = field(default_factory=lambda: {"0", "defpoints", FILL.casefold(), MARKS.casefold()})
+    taken: set[str] = field(
+        default_factory=lambda: {"0", "defpoints", *(own.casefold() for own in (FILL, MARKS, TEMPLATE))}
+    )
     dashes: dict[tuple[float, float], str] = field(default_factory=dict)
 
     def tags(self) -> dict[Key, str]:

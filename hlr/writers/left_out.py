@@ -1,4 +1,4 @@
-"""What a format leaves out of a page: its template, or letters of its texts."""
+"""What a format leaves out of a page: letters of its texts."""
 
 from __future__ import annotations
 
@@ -19,9 +19,6 @@ def left_out(drawing: Drawing, format: str, file: str) -> list[Note]:
     """Notes on what is on the page, but not in a file of this format. file: what the notes call it."""
     template = "" if drawing.sheet is None else drawing.sheet.template
     page = f'Page "{drawing.view.name}":'
-    if template and format == "dxf":
-        text = f"{page} the template is not drawn in {file}, which has the lines alone."
-        return [Note("page-items-left-out", text)]
     if template and format in ("pdf", "png"):
         letters = _missing_letters(template)
         if letters:

@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-import io
-import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
-from xml.etree import ElementTree
-from xml.etree.ElementTree import Element
 
 from hlr.errors import WriteError
 from hlr.writers.number import number
 from hlr.writers.page_fonts import PageFonts
-
-_REFERENCE = re.compile(r"""url\(\s*["']?#([^)"']+?)["']?\s*\)""")
-_STOP_COLOR = re.compile(r"(?:^|;)\s*stop-color\s*:\s*([^;]+)")
+from hlr.writers.template_elements import dashes_of, shown_elements
 
 CAPS = {"butt": 0, "round": 1, "square": 2}
 JOINS = {"miter": 0, "round": 1, "bevel": 2}
@@ -29,51 +23,20 @@ def template_commands(template: str, left: float, top: float, fonts: PageFonts) 
     Raises:
         WriteError: the template is no SVG that can be drawn.
     """
-    from svgelements import SVG, Path, Shape, Text
+    from svgelements import Path, Text
 
     out = [f"q 1 0 0 -1 {number(left)} {number(top)} cm"]
     try:
-        whole = _without_gradients(f"<svg>{template}</svg>")
-        for element in SVG.parse(io.StringIO(whole), reify=False).elements():
-            if element.values.get("visibility") == "hidden" or element.values.get("display") == "none":
-                continue
+        for element in shown_elements(template):
             if isinstance(element, Text):
                 out += _text(element, fonts)
-            elif isinstance(element, Shape):
+            else:
                 out += _shape(element, Path(element))
     except Exception as error:  # whatever a broken file makes the library raise
         raise WriteError(
             f"the template of the page cannot be drawn in PDF ({type(error).__name__}): write SVG or DXF"
         ) from None
     return "\n".join([*out, "Q\n"]).encode("ascii")
-
-
-def _without_gradients(svg: str) -> str:
-    """Gradients become the mean of their colours: what PDF fills here has one."""
-    if "Gradient" not in svg:
-        return svg
-    elements = ElementTree.fromstring(svg).iter()
-    gradients = {each.get("id"): each for each in elements if each.tag in ("linearGradient", "radialGradient")}
-    return _REFERENCE.sub(lambda found: _mean(gradients, found[1]) if found[1] in gradients else found[0], svg)
-
-
-def _mean(gradients: Mapping[str | None, Element], name: str) -> str:
-    """#rrggbb, or none for a gradient without colours, which paints nothing."""
-    from svgelements import Color
-
-    own, left = gradients.get(name), len(gradients)
-    # A gradient may take its colours from another one; those that refer to one another have none.
-    while own is not None and own.find("stop") is None and left > 0:
-        own, left = gradients.get(own.get("href", "").removeprefix("#")), left - 1
-    stops = [] if own is None else own.findall("stop")
-    told = [_STOP_COLOR.search(stop.get("style", "")) for stop in stops]
-    colors = [
-        Color(found[1] if found else stop.get("stop-color", "black")) for stop, found in zip(stops, told, strict=True)
-    ]
-    if not colors:
-        return "none"
-    channels = zip(*((each.red, each.green, each.blue) for each in colors), strict=True)
-    return "#" + "".join(f"{round(sum(channel) / len(colors)):02x}" for channel in channels)
 
 
 def _shape(shape: Any, path: Any) -> Iterator[str]:
@@ -133,11 +96,7 @@ def _color(color: Any) -> str:
 
 
 def _dashes(shape: Any, scale: float) -> str:
-    given = str(shape.values.get("stroke-dasharray") or "none")
-    if given == "none":
-        return "[] 0"
-    lengths = [float(part.removesuffix("px").removesuffix("mm")) * scale for part in given.replace(",", " ").split()]
-    return f"[{' '.join(number(length) for length in lengths)}] 0" if sum(lengths) > 0.0 else "[] 0"
+    return f"[{' '.join(number(length) for length in dashes_of(shape, scale))}] 0"
 
 
 def _point(point: Any) -> str:

@@ -82,9 +82,11 @@ def test_a_colour_of_hidden_lines_that_are_not_drawn_is_noted(hlr_command):
         "--hidden-color has no effect: --no-hidden leaves the hidden lines out"
     ]
     cut = ("--section", "front@0.5")
-    assert notes(*cut) == notes(*cut, "--view", "front") == [
-        "--hidden-color has no effect: sections have no hidden lines, unless --hidden asks for them"
-    ]
+    assert (
+        notes(*cut)
+        == notes(*cut, "--view", "front")
+        == ["--hidden-color has no effect: sections have no hidden lines, unless --hidden asks for them"]
+    )
     assert notes(*cut, "--view", "iso") == pictorial
     assert notes(*cut, "--view", "top") == notes(*cut, "--hidden") == []
     assert notes("--hidden") == notes("--view", "iso", "--view", "top") == notes("--view", "0,0,1") == []

@@ -22,7 +22,7 @@ from hlr.compare.reading.stated_view import stated_as_text, views_in_text
 from hlr.errors import SourceError
 from hlr.tables.line_classes import LINE_CLASSES
 from hlr.writers.dxf_entities import APPLICATION
-from hlr.writers.dxf_layers import MARKS
+from hlr.writers.dxf_layers import MARKS, TEMPLATE
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
@@ -118,6 +118,8 @@ def _read(document: Document, damaged: int, sketch: Sketch, path: Path) -> About
         found.left_out["damaged entries"] = damaged
     for entity, layer, linetype in _entities(document, looks, path.name):
         kind = entity.dxftype()
+        if layer == TEMPLATE and document.appids.has_entry(APPLICATION):
+            continue
         if layer == MARKS and document.appids.has_entry(APPLICATION):
             found.left_out["marks of sections"] += 1
         elif looks.off(layer) or entity.dxf.get("invisible", 0):
