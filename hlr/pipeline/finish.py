@@ -185,7 +185,8 @@ def page_of(placement: Placement, lines: Sequence[Line]) -> tuple[Page | None, t
 
 def _empty(lines: Sequence[Line], fill: Fill | None) -> tuple[Note, ...]:
     painted = fill is not None and len(fill.part) > 0
-    return () if lines or painted else (Note("nothing-in-view", "nothing of the model lies in this view."),)
+    text = "no line of the model lies in this view: the eye looks past it, or at a face that fills the view."
+    return () if lines or painted else (Note("nothing-in-view", text),)
 
 
 def drawn_view(camera: Camera) -> DrawnView:

@@ -59,8 +59,10 @@ def open_selected(thing: Any, options: PartSelection) -> Source:
     kept = set(names) if not only else matching(only, source, "only")
     kept -= matching(hide, source, "hide")
     if not kept:
-        fewer = "do not hide its only part" if len(names) == 1 else f"hide fewer of its {len(names)} parts"
-        raise OptionError(f"Of {source.name} no part would be left: {fewer}.")
+        why = "do not hide its only part" if len(names) == 1 else f"hide fewer of its {len(names)} parts"
+        if only and len(names) > 1:
+            why = "`hide` takes all that `only` chooses"
+        raise OptionError(f"Of {source.name} no part would be left: {why}.")
     return source.of_parts(kept, (only, hide))
 
 

@@ -107,10 +107,13 @@ def test_an_eye_at_its_target_is_refused_in_words():
         hlr.draw(AHEAD, perspective=looking((0, 20, 0), (0, 20, 0)), **AT_SIZE)
 
 
+PAST = "no line of the model lies in this view: the eye looks past it, or at a face that fills the view."
+
+
 def test_an_eye_that_sees_nothing_says_so():
     drawing = hlr.draw(AHEAD, perspective=looking((0, 0, 0), (0, -10, 0)), **AT_SIZE)
     assert drawing.lines == ()
-    assert drawing.notes == (Note("nothing-in-view", "nothing of the model lies in this view."),)
+    assert drawing.notes == (Note("nothing-in-view", PAST),)
 
 
 def test_from_far_away_perspective_becomes_parallel():

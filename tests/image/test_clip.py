@@ -249,9 +249,18 @@ def test_a_corner_close_to_the_plane_of_the_eye_spoils_nothing(beside):
     assert counts(near) == counts(far)
 
 
+PAST = "no line of the model lies in this view: the eye looks past it, or at a face that fills the view."
+
+
 def test_an_eye_that_sees_nothing_says_so():
     away = Perspective(eye=(0, -100, 0), target=(0, -200, 0), fov=40.0)
     drawing = hlr.draw(box((10, 10, 10)), "front", perspective=away, **AT_SIZE)
     assert drawing.lines == ()
-    assert drawing.notes == (Note("nothing-in-view", "nothing of the model lies in this view."),)
+    assert drawing.notes == (Note("nothing-in-view", PAST),)
     assert drawing.bounds == (0, 0, 0, 0)
+
+
+def test_a_wall_that_fills_the_view_is_no_line():
+    within = Perspective(eye=(0, 0, 0), target=(0, 10, 0), fov=40.0)
+    assert hlr.draw(box((10, 10, 10)), "front", perspective=within, **AT_SIZE).notes == (Note("nothing-in-view", PAST),)
+    assert hlr.draw(box((10, 10, 10)), "front", perspective=within, fill=True, **AT_SIZE).notes == ()

@@ -153,7 +153,11 @@ def test_it_holds_for_every_kind_of_picture():
     [
         ({"only": ["blot"]}, '`only` "blot" matches no part: perhaps "bolt"'),
         ({"hide": ["zzz"]}, '`hide` "zzz" matches no part: there are "bolt", "nut", "plate"'),
-        ({"hide": ["*"]}, "no part would be left"),
+        ({"hide": ["*"]}, "no part would be left: hide fewer"),
+        (
+            {"only": ["nut", "bolt"], "hide": ["nut", "b*"]},
+            "no part would be left: `hide` takes all that `only` chooses",
+        ),
         ({"only": "bolt"}, "needs a list"),
         ({"hide": [1]}, "needs a list"),
         ({"var": "x"}, "no script"),
