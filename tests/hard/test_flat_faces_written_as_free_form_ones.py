@@ -11,11 +11,11 @@ from collections import Counter
 import cadquery as cq
 import numpy as np
 import pytest
-from OCP.BRepBuilderAPI import BRepBuilderAPI_NurbsConvert
 
 import hlr
 from hlr.source.cad.flat_faces import flat_heights
 from support.at_size import AT_SIZE
+from support.free_form import as_free_form, lengths
 
 FLOOR = 2.0
 
@@ -32,18 +32,6 @@ def block() -> cq.Shape:
     """With a pocket and a hole."""
     pocket = cq.Workplane().box(40, 30, 20).faces(">Z").workplane().rect(20, 10).cutBlind(FLOOR - 10)
     return pocket.faces("<Z").workplane().hole(6).val()
-
-
-def as_free_form(shape: cq.Shape) -> cq.Shape:
-    return cq.Shape.cast(BRepBuilderAPI_NurbsConvert(shape.wrapped).Shape())
-
-
-def lengths(drawing: hlr.Drawing) -> dict[tuple[str, bool], float]:
-    """How long the lines of each kind are together, millimetres on paper."""
-    found: Counter[tuple[str, bool]] = Counter()
-    for line in drawing.lines:
-        found[line.kind, line.visible] += float(np.linalg.norm(np.diff(line.points, axis=0), axis=1).sum())
-    return dict(found)
 
 
 @pytest.mark.parametrize("section", STEPS)

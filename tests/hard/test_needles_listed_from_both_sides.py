@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.test_needles_of_an_exporter import prism
 
 import hlr
 from support.at_size import AT_SIZE
+from support.needles import prism
 
 VIEW = (0.4, -1.0, 0.3)
 

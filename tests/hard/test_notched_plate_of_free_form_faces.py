@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import cadquery as cq
 import pytest
-from hard.test_flat_faces_written_as_free_form_ones import as_free_form, lengths
 
 import hlr
 from support.at_size import AT_SIZE
+from support.free_form import as_free_form, lengths
 
 NOTCHES = [(19.3, 33.81), (71.127, 90.009), (131.4, 180.52), (201.33, 222.222)]
 

@@ -11,10 +11,10 @@ import math
 
 import cadquery as cq
 import pytest
-from hard.test_flat_faces_written_as_free_form_ones import lengths
 
 import hlr
 from support.at_size import AT_SIZE
+from support.free_form import lengths
 
 POCKETS = [((3.286, -12.176, 8), 10.41), ((-0.838, -10.208, 17), 7.465), ((-15.453, -3.263, 26), 9.877)]
 

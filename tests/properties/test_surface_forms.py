@@ -13,13 +13,12 @@ from collections.abc import Callable
 import cadquery as cq
 import numpy as np
 import pytest
-from OCP.BRep import BRep_Tool
-from OCP.BRepBuilderAPI import BRepBuilderAPI_NurbsConvert
 from properties.assemblies import rotation
 from properties.ink import expect_same_ink
 
 import hlr
 from support.at_size import ALL_LINES
+from support.free_form import with_more_knots
 
 Pick = Callable[[float, float], float]
 VIEW = (0.5, -1.0, 0.8)
@@ -68,18 +67,6 @@ def part(number: int) -> cq.Shape:
     raise AssertionError("none is valid")
 
 
-def as_free_form(shape: cq.Shape, degree: int) -> cq.Shape:
-    """With B-splines of at least this degree, each with another knot both ways."""
-    found = cq.Shape.cast(BRepBuilderAPI_NurbsConvert(shape.wrapped, True).Shape())
-    for face in found.Faces():
-        surface = BRep_Tool.Surface_s(face.wrapped)
-        surface.IncreaseDegree(max(degree, surface.UDegree()), max(degree, surface.VDegree()))
-        low_u, high_u, low_v, high_v = surface.Bounds()
-        surface.InsertUKnot(low_u + 0.37 * (high_u - low_u), 1, 1e-9, True)
-        surface.InsertVKnot(low_v + 0.61 * (high_v - low_v), 1, 1e-9, True)
-    return found
-
-
 def draw(shape: cq.Shape, turn: np.ndarray) -> hlr.Drawing:
     """From the same side, however the shape is turned, at 2:1."""
     direction, up = turn @ VIEW, turn @ (0.0, 0.0, 1.0)
@@ -90,5 +77,5 @@ def draw(shape: cq.Shape, turn: np.ndarray) -> hlr.Drawing:
 @pytest.mark.parametrize("degree", [1, 3])
 def test_a_part_of_b_splines_turned_with_the_camera(number: int, degree: int) -> None:
     before, turn = part(number), rotation((1, 2, 3), 10 + 41 * number)
-    free = as_free_form(before.rotate((0, 0, 0), (1, 2, 3), 10 + 41 * number), degree)
+    free = with_more_knots(before.rotate((0, 0, 0), (1, 2, 3), 10 + 41 * number), degree)
     expect_same_ink(draw(before, np.eye(3)), draw(free, turn))
