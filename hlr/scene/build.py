@@ -16,6 +16,7 @@ from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
 from hlr.scene.clash import Clashes, find_clashes, self_intersecting_parts
 from hlr.scene.creases import Kinds, creases
+from hlr.scene.cut_borders import cut_borders
 from hlr.scene.duplicates import without_duplicates, without_flat_wedges
 from hlr.scene.intersection_lines import intersection_lines
 from hlr.scene.needles import reliable_normals
@@ -30,7 +31,7 @@ from hlr.source.bounds import LARGEST_COORDINATE
 from hlr.source.fewer_triangles import Fewer, with_fewer_triangles
 from hlr.source.model import Tessellation
 from hlr.source.part_meshes import PartMeshes, combine_parts
-from hlr.tables.line_classes import INTERIOR
+from hlr.tables.line_classes import INTERIOR, EdgeClass
 
 
 def build(
@@ -58,6 +59,9 @@ def build(
     walks, facets, drawn = found.walks(), None, None
     if tables.brep_parts < len(tables) and len(edges):
         crease_kind, facets = _creased(tables, mesh, found, groups, crease)
+        if on_cut is not None:
+            of_mesh = ~brep[edge_part[: len(crease_kind)]]
+            crease_kind[cut_borders(mesh, points, tables.triangles, of_mesh, on_cut)] = EdgeClass.SHARP
         walks = walks.merged(crease_walks(points, edges, crease_kind, edge_part))
         kind = kind.copy()
         np.copyto(kind[: len(crease_kind)], crease_kind, where=crease_kind != INTERIOR)
