@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 
 /// Another triangle with the same three corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Copy {
+pub struct Duplicate {
     pub triangle: u32,
     /// Whether it runs around its corners the other way.
     pub reversed: bool,
@@ -14,7 +14,7 @@ pub struct Copy {
 #[derive(Debug, Default)]
 pub struct ListedTwice {
     /// Per first triangle the others, ascending.
-    pub copies: BTreeMap<u32, Vec<Copy>>,
+    pub copies: BTreeMap<u32, Vec<Duplicate>>,
     later: HashMap<u32, u32>,
 }
 
@@ -28,7 +28,7 @@ impl ListedTwice {
             let of = *first.entry(key).or_insert(t);
             if of != t {
                 let reversed = is_even(corners) != is_even(&triangles[of as usize]);
-                found.copies.entry(of).or_default().push(Copy { triangle: t, reversed });
+                found.copies.entry(of).or_default().push(Duplicate { triangle: t, reversed });
                 found.later.insert(t, of);
             }
         }
@@ -60,7 +60,7 @@ mod tests {
     fn copies_are_found_however_their_corners_are_listed() {
         let triangles = [[4, 7, 5], [1, 2, 3], [5, 4, 7], [5, 7, 4], [3, 2, 1], [1, 2, 4]];
         let found = ListedTwice::of(&triangles, |_| true);
-        let copy = |triangle, reversed| Copy { triangle, reversed };
+        let copy = |triangle, reversed| Duplicate { triangle, reversed };
         assert_eq!(found.copies[&0], [copy(2, false), copy(3, true)]);
         assert_eq!(found.copies[&1], [copy(4, true)]);
         assert_eq!((0..6).filter(|&t| found.comes_later(t)).collect::<Vec<u32>>(), [2, 3, 4]);

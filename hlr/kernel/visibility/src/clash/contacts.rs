@@ -147,13 +147,13 @@ fn crossing(bodies: &Bodies, all: &[Candidate], nodes: &Nodes, points: &[Vec3], 
     arms.sort();
     let (bridge, count) = figures(nodes, &slight);
     let extent = extents(all, &slight, &bridge, count, points);
-    let gap = |(&i, &figure): (&usize, &usize)| Gap {
+    let as_gap = |(&i, &figure): (&usize, &usize)| Gap {
         nodes: nodes.of[i],
         ends: all[i].segment.ends.map(|end| points[end as usize]),
         figure,
         touch: all[i].depth.touch,
     };
-    let held = arms.continued(slight.iter().zip(&bridge).map(gap), count);
+    let continued = arms.continued(slight.iter().zip(&bridge).map(as_gap), count);
     let mut deepest = vec![0.0f64; count];
     for (&i, &f) in slight.iter().zip(&bridge) {
         // Rounding makes faces in one plane cross everywhere. That joins lines over any distance, but is nowhere
@@ -162,8 +162,8 @@ fn crossing(bodies: &Bodies, all: &[Candidate], nodes: &Nodes, points: &[Vec3], 
     }
     for (&i, &f) in slight.iter().zip(&bridge) {
         let size = all[i].segment.groups.iter().map(|&g| width[g]).fold(f64::INFINITY, f64::min);
-        let gap = BRIDGE * (all[i].depth.touch * size).sqrt();
-        out[i] = held[f] && deepest[f] >= CONTACT_REAL && extent[f] < gap;
+        let longest = BRIDGE * (all[i].depth.touch * size).sqrt();
+        out[i] = continued[f] && deepest[f] >= CONTACT_REAL && extent[f] < longest;
     }
     all.iter().zip(&mut out).for_each(|(c, out)| *out &= !c.depth.flush(c.sine, bodies.deflection));
     out

@@ -20,8 +20,8 @@ struct Arm {
     far: Vec3,
 }
 
-/// What a line shows that is followed back from a gap: that it comes from where the gap goes on, and that it is longer
-/// than the gap.
+/// What is found by following a line back from a gap: whether it runs toward the gap in the gap's own direction, and
+/// whether it is longer than the gap.
 #[derive(Default)]
 struct Line {
     onward: bool,
