@@ -27,7 +27,7 @@ def cut_borders(
     on = on_cut(points)
     flat = np.asarray(on[triangles].all(axis=1), np.bool_)
     first = mesh.offsets[:-1]
-    # Where the plane steps, triangles of a cut face have corners that are on another plane as well.
+    # The wall at a step has triangles with all corners on the planes, beside others in one plane with them.
     two = np.flatnonzero((np.diff(mesh.offsets) == 2) & of_mesh & (mesh.fold < LEVEL))
     beside = np.stack([mesh.incident[first[two]], mesh.incident[first[two] + 1]])
     return np.asarray(two[flat[beside[0]] != flat[beside[1]]])

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from hlr.common.types import Floats
 
@@ -32,6 +33,13 @@ class Stepped:
         at = points @ self.along
         sides = [self.levels[np.searchsorted(self.steps, at + sense * near)] for sense in (-1.0, 1.0)]
         return np.asarray(points @ self.normal - np.maximum(*sides))
+
+    def contain(self, points: Floats, near: float) -> npt.NDArray[np.bool_]:
+        """(n,) which of points (n, 3) lie on the planes, no farther than `near`; at a step, on either of the two."""
+        at, heights = points @ self.along, points @ self.normal
+        beside = (self.levels[np.searchsorted(self.steps, at + sense * near)] for sense in (-1.0, 1.0))
+        before, behind = (np.abs(heights - level) <= near for level in beside)
+        return np.asarray(before | behind)
 
     def reach(self, points: Floats) -> tuple[float, float]:
         """From where to where what has these corners (n, 3) may lie before the planes."""

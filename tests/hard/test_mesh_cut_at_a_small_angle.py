@@ -47,4 +47,4 @@ def test_steps_have_borders_too() -> None:
     arcs = [line for line in drawing.visible if line.kind == "sharp" and np.ptp(line.points[:, 0]) > 1.0]
     # Half of each circle; what runs along the step is no arc.
     wanted = np.pi * sum(np.sqrt(RADIUS**2 - y**2) for y in (19.0, 18.0))
-    assert sum(line.length_mm for line in arcs) == pytest.approx(wanted, abs=1.0)
+    assert sum(line.length_mm for line in arcs) == pytest.approx(wanted, abs=0.2)

@@ -91,7 +91,7 @@ class Planes:
 
     def contain(self, points: Floats) -> npt.NDArray[np.bool_]:
         """Which of points (n, 3) lie on them."""
-        return np.asarray(np.abs(self.stepped().heights(points)) <= self.near)
+        return self.stepped().contain(points, self.near)
 
     def corners(self) -> tuple[Vector, ...]:
         """Points on the edges of the planes: of each step one on the plane before it, and one on that behind it."""
