@@ -54,15 +54,6 @@ def needles(
     normals (t, 3); part (t,). The triangles ascend.
     """
 
-def edge_kinds(
-    offsets: Ints, fold: Floats, edge_part: Ints, without_brep: Bools, sharp: float, near: float
-) -> tuple[Bytes, npt.NDArray[np.int64]]:
-    """(e,) EdgeClass of the edges of parts without B-rep (without_brep (p,)), 255 for others; and which of these are
-    nearly creases.
-
-    sharp, near: cosines of folds, below which an edge is a crease, or nearly one.
-    """
-
 def stitched(points: Floats, triangles: Ints, reach: float) -> tuple[Ints, Ints, int]:
     """Joins borders of a mesh that run within `reach` of one another.
 
@@ -1095,6 +1086,15 @@ class MeshFacts:
 
     def borders_without_brep(self) -> list[int]:
         """How many borders each part without B-rep has."""
+
+    def edge_kinds(
+        self, fold: Floats, edge_part: Ints, without_brep: Bools, sharp: float, near: float
+    ) -> tuple[Bytes, npt.NDArray[np.int64]]:
+        """(e,) EdgeClass of the edges of parts without B-rep (without_brep (p,)), 255 for others; and which of these
+        are nearly creases.
+
+        sharp, near: cosines of folds, below which an edge is a crease, or nearly one.
+        """
 
     def scene(self) -> MeshScene: ...
 

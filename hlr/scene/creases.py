@@ -66,7 +66,7 @@ def creases(
     without_brep (p,): the parts that are looked at; crease: degrees; sizes (p,): diagonals of the boxes of parts.
     """
     sharp, near_fold = _cosine(crease - SLACK), _cosine(NEAR_FOLD * crease)
-    kind, near = _kernel.edge_kinds(mesh.offsets, fold, edge_part, without_brep, sharp, near_fold)
+    kind, near = mesh.edge_kinds(fold, edge_part, without_brep, sharp, near_fold)
     kind[_gap_edges(kind, mesh.edges, near, points)] = EdgeClass.SHARP
     lone, figure = _noise_edges(kind, mesh.edges, fold, _cosine(CLEAR_FOLD * crease), len(points))
     if len(lone):

@@ -11,6 +11,7 @@ pub mod edge_flips;
 pub mod facts;
 pub mod groups;
 pub mod kinds;
+pub mod layers;
 pub mod listed_twice;
 pub mod measure;
 pub mod meshfile;

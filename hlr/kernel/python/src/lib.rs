@@ -49,7 +49,6 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(mesh::clean_mesh, m)?)?;
     m.add_function(wrap_pyfunction!(mesh::without_needles, m)?)?;
     m.add_function(wrap_pyfunction!(mesh::needles, m)?)?;
-    m.add_function(wrap_pyfunction!(mesh::edge_kinds, m)?)?;
     m.add_function(wrap_pyfunction!(topology::edge_components, m)?)?;
     m.add_function(wrap_pyfunction!(visibility::visibility, m)?)?;
     m.add_class::<mesh_input::Mesh>()?;

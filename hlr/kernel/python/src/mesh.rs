@@ -9,7 +9,6 @@ use super::threads::run;
 use super::view::{Flat, Rows};
 use hlr_mesh::clean::clean;
 use hlr_mesh::edge_flips::without_needles as turned;
-use hlr_mesh::kinds::{Limits, kinds};
 use hlr_mesh::needles::needles as low_ones;
 
 type Cleaned<'py> = (Rows<'py, f64>, Rows<'py, i32>, Option<Flat<'py, u32>>, (usize, usize, usize));
@@ -70,28 +69,5 @@ pub fn needles<'py>(
     expect_slice_below("part", part, least.len())?;
     expect_slice_below("triangles", triangles.as_flattened(), points.len())?;
     let found = run(py, triangles.len(), |_| low_ones(points, triangles, normals, &|t| least[part[t] as usize]))?;
-    Ok((found.0.into_pyarray(py), found.1.into_pyarray(py)))
-}
-
-/// Classes of the edges of parts without B-rep, 255 for all others; and which of those are nearly creases. sharp, near:
-/// cosines of folds.
-#[pyfunction]
-pub fn edge_kinds<'py>(
-    py: Python<'py>,
-    offsets: PyReadonlyArray1<'py, i32>,
-    fold: PyReadonlyArray1<'py, f64>,
-    edge_part: PyReadonlyArray1<'py, i32>,
-    without_brep: PyReadonlyArray1<'py, bool>,
-    sharp: f64,
-    near: f64,
-) -> PyResult<(Flat<'py, u8>, Flat<'py, i64>)> {
-    let (offsets, fold) = (flat(&offsets, "offsets")?, flat(&fold, "fold")?);
-    let (edge_part, without_brep) = (flat(&edge_part, "edge_part")?, flat(&without_brep, "without_brep")?);
-    expect_len("offsets", offsets.len(), fold.len() + 1)?;
-    expect_len("edge_part", edge_part.len(), fold.len())?;
-    expect_slice_below("edge_part", edge_part, without_brep.len())?;
-    let found = run(py, fold.len(), |_| {
-        kinds(offsets, fold, &|e| without_brep[edge_part[e] as usize], Limits { sharp, near })
-    })?;
     Ok((found.0.into_pyarray(py), found.1.into_pyarray(py)))
 }

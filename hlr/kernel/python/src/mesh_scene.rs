@@ -2,16 +2,19 @@
 
 use std::sync::Arc;
 
-use numpy::PyArray3;
+use numpy::{IntoPyArray, PyArray3, PyReadonlyArray1};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 
+use super::arrays::{expect_len, expect_slice_below, flat as values};
 use super::clash::{Crossings, crossings};
 use super::groups::Groups;
 use super::threads::{AT_ONCE, CHEAP, release_later, run};
 use super::view::{Flat, Rows, arrays, flat, matrices, rows};
 use super::walks::Walks;
 use hlr_mesh::facts::Facts;
+use hlr_mesh::kinds::{Limits, kinds};
+use hlr_mesh::layers::is_layered;
 use hlr_mesh::scene::{DEFECTS, Report, Scene, scene};
 use hlr_mesh::tables::Tables;
 
@@ -63,6 +66,30 @@ arrays! { MeshFacts {
             }
         }
         count
+    }
+
+    /// Classes of the edges of parts without B-rep, 255 for all others; and which of those are nearly creases. sharp,
+    /// near: cosines of folds.
+    fn edge_kinds<'py>(
+        &self,
+        py: Python<'py>,
+        fold: PyReadonlyArray1<'py, f64>,
+        edge_part: PyReadonlyArray1<'py, i32>,
+        without_brep: PyReadonlyArray1<'py, bool>,
+        sharp: f64,
+        near: f64,
+    ) -> PyResult<(Flat<'py, u8>, Flat<'py, i64>)> {
+        let (tables, facts, fold) = (&self.tables, &self.facts, values(&fold, "fold")?);
+        let (edge_part, without_brep) = (values(&edge_part, "edge_part")?, values(&without_brep, "without_brep")?);
+        expect_len("fold", fold.len(), facts.edges.len())?;
+        expect_len("edge_part", edge_part.len(), fold.len())?;
+        expect_slice_below("edge_part", edge_part, without_brep.len())?;
+        let found = run(py, fold.len(), |_| {
+            let of_mesh = |e: usize| without_brep[edge_part[e] as usize];
+            let layered = |e: usize| is_layered(e, facts, &tables.points, &tables.triangles, sharp);
+            kinds(&facts.offsets, fold, &of_mesh, &layered, Limits { sharp, near })
+        })?;
+        Ok((found.0.into_pyarray(py), found.1.into_pyarray(py)))
     }
 
     /// All parts as one scene.

@@ -111,6 +111,13 @@ fn jump(mesh: &Mesh, table: &PolygonTable, edge: usize) -> i32 {
     sum
 }
 
+/// Whether all counted triangles at an edge lie on one side of it in the image. Where layers of a surface go on, there may
+/// be more of them on the one than on the other. jump: of the edge.
+fn ends_at(mesh: &Mesh, table: &PolygonTable, edge: usize, jump: i32) -> bool {
+    let counted = |&&t: &&i32| table.counted(t as usize) && table.facing(t as usize) != 0;
+    jump != 0 && jump.unsigned_abs() as usize == mesh.incident(edge).iter().filter(counted).count()
+}
+
 /// Whether an edge lies between a triangle that is almost edge-on and one that is not, both turned the same way. A
 /// strip of such triangles has no width on paper, but the surfaces on its two sides may be far apart in depth. So its
 /// borders are outlines, as they would be if it were exactly edge-on.
@@ -170,7 +177,7 @@ impl Walls {
                 continue;
             }
             let role = mesh.role[edge];
-            if role & DRAWN != 0 || (role != 0 && jump(mesh, table, edge) != 0) {
+            if role & DRAWN != 0 || (role != 0 && ends_at(mesh, table, edge, jump(mesh, table, edge))) {
                 lines.extend(around.iter().filter(|&&t| edge_on(t)).map(|&t| (t, in_image(mesh, edge))));
             }
             if let &[s, t] = around
@@ -221,7 +228,8 @@ fn in_image(mesh: &Mesh, edge: usize) -> [Place; 2] {
 
 fn fate(mesh: &Mesh, table: &PolygonTable, edge: usize, jump: i32) -> Fate {
     let role = mesh.role[edge];
-    if role & DRAWN == 0 && (role & OUTLINE == 0 || (jump == 0 && !beside_edge_on(mesh, table, edge))) {
+    let outlines = || ends_at(mesh, table, edge, jump) || beside_edge_on(mesh, table, edge);
+    if role & DRAWN == 0 && (role & OUTLINE == 0 || !outlines()) {
         return Fate::Ignored;
     }
     if seen_end_on(mesh, edge) {
