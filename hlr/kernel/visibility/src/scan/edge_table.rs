@@ -111,11 +111,11 @@ fn jump(mesh: &Mesh, table: &PolygonTable, edge: usize) -> i32 {
     sum
 }
 
-/// Whether all counted triangles at an edge lie on one side of it in the image. Where layers of a surface go on, there may
-/// be more of them on the one than on the other. jump: of the edge.
+/// Whether a surface ends or folds over at an edge, in the image. Where layers of one go on, there may be one triangle
+/// more on the one side than on the other. jump: of the edge.
 fn ends_at(mesh: &Mesh, table: &PolygonTable, edge: usize, jump: i32) -> bool {
     let counted = |&&t: &&i32| table.counted(t as usize) && table.facing(t as usize) != 0;
-    jump != 0 && jump.unsigned_abs() as usize == mesh.incident(edge).iter().filter(counted).count()
+    jump.abs() > 1 || (jump != 0 && mesh.incident(edge).iter().filter(counted).count() == 1)
 }
 
 /// Whether an edge lies between a triangle that is almost edge-on and one that is not, both turned the same way. A
