@@ -1,7 +1,7 @@
 """Cut an image by planes before a perspective view: the near plane, and the frame where the eye is given.
 
-An image is cut only where something crosses a plane. A cut surface is open, so culling is switched off for it: a face
-may be seen from behind through the cut.
+An image is cut only where something crosses a plane. A body that one looks into through the cut is open, so culling is
+switched off for it: its faces are seen from behind (`hlr.image.plane`).
 """
 
 from __future__ import annotations
@@ -15,24 +15,13 @@ import numpy as np
 
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
-from hlr.image.camera import NEAR, Camera, dot
+from hlr.image.camera import NEAR, Camera
 from hlr.image.image import Image, Silhouettes
+from hlr.image.plane import Plane, Window
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Vector
 from hlr.scene.walks import edge_keys
 from hlr.tables.line_classes import INTERIOR
-
-
-@dataclass(frozen=True, slots=True)
-class Plane:
-    """A plane that keeps the points p with normal . p >= offset."""
-
-    normal: Vector
-    offset: float
-
-    def height(self, points: Floats) -> Floats:
-        """(n,) signed distance times |normal|."""
-        return np.asarray(dot(points, self.normal) - self.offset)
 
 
 def planes(camera: Camera, aspect: float) -> list[Plane]:
@@ -48,19 +37,19 @@ def _volume(camera: Camera, aspect: float) -> tuple[list[Plane], list[Plane]]:
     eye = camera.eye
     d = camera.direction
 
-    def through(normal: Vector, ahead: float = 0.0) -> Plane:
-        offset = sum(n * e for n, e in zip(normal, eye, strict=True)) + ahead
-        return Plane(normal, offset)
+    def at_eye(normal: Vector) -> float:
+        return sum(n * e for n, e in zip(normal, eye, strict=True))
 
-    near = [through((-d[0], -d[1], -d[2]), camera.distance * NEAR)]
-    sides = []
+    near, ahead, sides, window = camera.distance * NEAR, (-d[0], -d[1], -d[2]), [], None
     if camera.framed:
         tangent = math.tan(math.radians(camera.fov) * 0.5)
+        x, y, z = (e + near * a for e, a in zip(eye, ahead, strict=True))
+        window = Window((x, y, z), camera.right, camera.up, (near * tangent * aspect, near * tangent))
         for axis, reach in ((camera.right, tangent * aspect), (camera.up, tangent)):
             for sign in (1.0, -1.0):
-                n = [sign * a - reach * c for a, c in zip(axis, d, strict=True)]
-                sides.append(through((n[0], n[1], n[2])))
-    return near, sides
+                x, y, z = (sign * a - reach * c for a, c in zip(axis, d, strict=True))
+                sides.append(Plane((x, y, z), at_eye((x, y, z)), side=True))
+    return [Plane(ahead, at_eye(ahead) + near, window=window)], sides
 
 
 def clipped(image: Image, planner: Planner) -> Image:
@@ -113,7 +102,7 @@ def clip(image: Image, cuts: list[Plane], every: bool = False) -> tuple[Image, i
         crossed = _crossed(image, plane)
         used += crossed
         if crossed or every:
-            image = _cut(image, plane.height(image.points))
+            image = _cut(image, plane)
     return (_compact(image) if used else image), used
 
 
@@ -172,8 +161,9 @@ def _went(image: Image, inside: np.ndarray, new_vertex: Ints, edges: Ints, point
     return _Went(target, ends[:, 0] > ends[:, 1], low_first[loose])
 
 
-def _cut(image: Image, height: Floats) -> Image:
-    """The part of the image at which the plane's height (n,) is not below zero."""
+def _cut(image: Image, plane: Plane) -> Image:
+    """The part of the image that a plane keeps."""
+    height = plane.height(image.points)
     inside = height >= 0.0
     a, b = image.edges[:, 0], image.edges[:, 1]
     crossing = inside[a] != inside[b]
@@ -202,9 +192,11 @@ def _cut(image: Image, height: Floats) -> Image:
     first = incident[offsets[:-1][tied]]
     edge_part, edge_group = moved(image.edge_part, 0), moved(image.edge_group, 0)
     edge_part[tied] = image.triangle_part[parent][first]
-    edge_group[tied] = image.triangle_group[parent][first]
-    open_now = np.zeros(len(image.groups), bool)
-    open_now[image.edge_group[crossing]] = True
+    triangle_group = image.triangle_group[parent]
+    edge_group[tied] = triangle_group[first]
+    along = (triangles[:, 1] >= n) & (triangles[:, 2] >= n)
+    starts, ends = points[triangles[along, 1]], points[triangles[along, 2]]
+    open_now = plane.looked_into(starts, ends, triangle_group[along], len(image.groups))
     return replace(
         image,
         points=points,
@@ -214,7 +206,7 @@ def _cut(image: Image, height: Floats) -> Image:
         silhouettes=_cut_silhouettes(image, crossing, t, went.target, moved),
         triangles=triangles,
         triangle_part=image.triangle_part[parent],
-        triangle_group=image.triangle_group[parent],
+        triangle_group=triangle_group,
         triangle_face=image.triangle_face[parent],
         triangle_origin=image.triangle_origin[parent],
         turned=image.turned[parent],
