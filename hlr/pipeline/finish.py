@@ -7,12 +7,14 @@ from dataclasses import dataclass
 from time import perf_counter
 
 from hlr.common.clock import Clock, lap
+from hlr.common.numbers import typed
 from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
 from hlr.drawing.fill import Fill
 from hlr.drawing.line import Bounds, Line
 from hlr.drawing.lines import bounds_of, held
 from hlr.drawing.notes import Note
 from hlr.drawing.page import Page, centred
+from hlr.drawing.scale import ratio
 from hlr.image.camera import Camera
 from hlr.image.image import Image
 from hlr.image.paper import misfit
@@ -71,7 +73,7 @@ def finished(
     stated = drawn_view(camera)
     frame = None if window is None else Frame(stated, placement.per_model, window)
     lines, fill, empty = cut_at_window(lines, fill, frame, planner)
-    empty = empty or _empty(lines, fill)
+    empty = empty or _empty(lines, fill, image)
     page, misfit = (None, ()) if window is not None else page_of(placement, lines)
     counters = {**_counters(solved, lines, fill), "left_out": shown.left_out}
     _tell_times(planner, plan, segments)
@@ -183,10 +185,20 @@ def page_of(placement: Placement, lines: Sequence[Line]) -> tuple[Page | None, t
     return page, () if warning is None else (warning,)
 
 
-def _empty(lines: Sequence[Line], fill: Fill | None) -> tuple[Note, ...]:
-    painted = fill is not None and len(fill.part) > 0
-    text = "no line of the model lies in this view: the eye looks past it, or at a face that fills the view."
-    return () if lines or painted else (Note("nothing-in-view", text),)
+def _empty(lines: Sequence[Line], fill: Fill | None, image: Image) -> tuple[Note, ...]:
+    """What is said of a drawing without a line. Only in perspective can a view miss the model."""
+    if lines or (fill is not None and len(fill.part) > 0):
+        return ()
+    if image.camera.eye is not None:
+        text = "no line of the model lies in this view: the eye looks past it, or at a face that fills the view."
+    else:
+        placement = image.placement
+        text = (
+            "no line is drawn: on paper all that the model has is a point, or smaller than the accuracy, "
+            f"{typed(placement.tolerances.accuracy)} mm, at {ratio(placement.scale)}. Try another view, "
+            "a larger scale, or fewer parts (--only)."
+        )
+    return (Note("nothing-in-view", text),)
 
 
 def drawn_view(camera: Camera) -> DrawnView:
