@@ -62,7 +62,7 @@ def test_a_relative_path_means_the_same_file_while_the_script_runs(script, tmp_p
         assert shown(path) == {"this": None}
 
 
-def test_the_main_guard_of_a_program_is_not_run(script):
+def test_the_main_guard_of_a_program_is_not_run_where_a_shape_is_there(script):
     assert len(shown(script(CQ + "if __name__ == '__main__':\n    raise RuntimeError\n"))) == 1
 
 
@@ -84,7 +84,7 @@ def test_build123d(script):
         (CQ + "import sys\nsys.exit('too\\n thin')\n", r'the message "too thin": its variable "box" may be'),
         ("x = 1\n", "shows nothing"),
         ("result = 'abc'\n", 'The variable "result" of model.py is no shape, but str'),
-        ("if __name__ == '__main__':\n    result = 1\n", 'under if __name__ == "__main__" is not run'),
+        ("if __name__ == '__main__':\n    result = 1\n", 'The variable "result" of model.py is no shape, but int'),
         ("show_object(5)\n", "shows something that is no shape"),
         (CQ + "result = box.faces('>Z').workplane()\n", r"shows something without a shape in it \(Workplane\)"),
     ],

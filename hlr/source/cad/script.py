@@ -10,7 +10,8 @@ exists is drawn:
 3. the variable `result`;
 4. the solid that was assigned last, else the last face, else the last shape.
 
-A remark in the drawing names the choice.
+A remark in the drawing names the choice. What stands under `if __name__ == "__main__":` is run where nothing is there
+to draw without it, or where it shows something and nothing else is shown or called `result` (`main_block`).
 """
 
 from __future__ import annotations
@@ -29,9 +30,11 @@ from hlr.request.options import Parameter
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.collected import is_collection, left_out_of, things_in
 from hlr.source.cad.colors import ColorOpacity
+from hlr.source.cad.main_block import main_block
 from hlr.source.cad.objects import is_shape_like, to_leaves
 from hlr.source.cad.occt_import import import_failure_message, load_occt
 from hlr.source.cad.parts import Leaf
+from hlr.source.cad.script_module import Variables, module_of
 from hlr.source.cad.script_parameters import compiled
 from hlr.source.cad.source_builder import build_source
 from hlr.source.cad.viewers import Showing, Shown, stand_ins
@@ -82,10 +85,7 @@ def _nothing_shown(path: Path, values: dict[str, Any], empty: list[str]) -> str:
     if _RESULT_VARIABLE in values and not _is_shape(values[_RESULT_VARIABLE]):
         kind = type(values[_RESULT_VARIABLE]).__name__
         return f'The variable "{_RESULT_VARIABLE}" of {path.name} is no shape, but {kind}: assign a shape to it.'
-    text = f'{path.name} shows nothing: call show_object(shape) in it, or assign the shape to a variable "result"'
-    if b"__main__" in path.read_bytes():
-        text += '; what stands under if __name__ == "__main__" is not run'
-    return f"{text}."
+    return f'{path.name} shows nothing: call show_object(shape) in it, or assign the shape to a variable "result".'
 
 
 def _objects_to_draw(
@@ -166,14 +166,6 @@ def _rank(thing: Any) -> int:
     return 2 if shapes else 3
 
 
-class _Variables(dict[str, Any]):
-    """Variables of a script, in the order of their last assignment."""
-
-    def __setitem__(self, name: str, value: Any) -> None:
-        self.pop(name, None)
-        super().__setitem__(name, value)
-
-
 class _CadQuery:
     """CadQuery under the name that it has in CQ-editor without an import; it is imported where a script uses it."""
 
@@ -185,7 +177,7 @@ def _ignore(*_: Any, **__: Any) -> None: ...
 
 
 def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter]) -> dict[str, Any]:
-    values = _Variables(
+    values = Variables(
         {
             "__name__": "__cq_main__",
             "__file__": str(path.resolve()),
@@ -206,8 +198,9 @@ def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter]) -> d
     sys.argv = [str(path)]
     try:
         os.chdir(folder)
-        with stand_ins(showing):
+        with stand_ins(showing), module_of(values):
             exec(compiled(path, parameters), values)
+            _run_main_block(path, showing, values, parameters)
     except OptionError:
         raise
     except SyntaxError as error:
@@ -226,6 +219,20 @@ def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter]) -> d
         if working_folder is not None:
             os.chdir(working_folder)
     return values
+
+
+def _run_main_block(path: Path, showing: Showing, values: Variables, parameters: Mapping[str, Parameter]) -> None:
+    """Run what stands under `if __name__ == "__main__":` where without it nothing is there to draw.
+
+    Where shapes are there, but neither shown nor called `result`, it is run if it shows something itself.
+    """
+    shapes = _shapes(values)
+    if showing.shown or _RESULT_VARIABLE in shapes:
+        return
+    block = main_block(path, parameters, showing=bool(shapes))
+    if block is not None:
+        values["__name__"] = "__main__"
+        exec(block, values)
 
 
 def _left_early(path: Path, code: object, values: dict[str, Any]) -> str:

@@ -26,10 +26,14 @@ def compiled(path: Path, parameters: Mapping[str, Parameter]) -> CodeType:
 
     Raises SyntaxError; OptionError where it has no such parameter, or one of another kind.
     """
-    text = path.read_bytes()
     if not parameters:
-        return compile(text, str(path), "exec")
-    tree = ast.parse(text, str(path))
+        return compile(path.read_bytes(), str(path), "exec", dont_inherit=True)
+    return compile(parsed(path, parameters), str(path), "exec", dont_inherit=True)
+
+
+def parsed(path: Path, parameters: Mapping[str, Parameter]) -> ast.Module:
+    """The statements of a script whose parameters have these values. Raises as `compiled`."""
+    tree = ast.parse(path.read_bytes(), str(path))
     found: dict[str, Parameter] = {}
     for name, statement, value in _settings(tree):
         found.setdefault(name, value)
@@ -37,7 +41,7 @@ def compiled(path: Path, parameters: Mapping[str, Parameter]) -> CodeType:
             statement.value = ast.copy_location(ast.Constant(parameters[name]), statement)
     for name, given in parameters.items():
         check_parameter(path, name, given, found)
-    return compile(ast.fix_missing_locations(tree), str(path), "exec")
+    return ast.fix_missing_locations(tree)
 
 
 def parameters_of(path: Path) -> dict[str, Parameter]:
