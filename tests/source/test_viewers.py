@@ -97,6 +97,13 @@ def test_names_that_cq_editor_has_without_an_import(tmp_path):
         open_source(tmp_path / "model.py")
 
 
+def test_names_that_cqgi_has_without_an_import(tmp_path):
+    text = "size = 3\ndescribe_parameter(size, 'edge')\nbuild_object(cadquery.Workplane().box(size, 1, 1))\n"
+    (tmp_path / "model.py").write_text(text)
+    low, high = open_source(tmp_path / "model.py", parameters={"size": 4}).bounds()
+    assert round(float(high[0] - low[0]), 3) == 4
+
+
 def test_cadquery_opens_no_window(shown):
     assert shown("from cadquery.vis import show, style\nshow(style(box, color='red'), width=800)\n")[0] == {
         "model": None

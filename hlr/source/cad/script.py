@@ -167,7 +167,7 @@ def _rank(thing: Any) -> int:
 
 
 class _CadQuery:
-    """CadQuery under the name that it has in CQ-editor without an import; it is imported where a script uses it."""
+    """CadQuery under the names that it has in CQ-editor and CQGI without an import; imported where a script uses it."""
 
     def __getattr__(self, name: str) -> Any:
         return getattr(import_module("cadquery"), name)
@@ -185,9 +185,12 @@ def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter]) -> d
             "show_object": showing.show_object,
             "show": showing.show,
             "show_all": showing.show_all,
+            "build_object": showing.show_object,  # of CQGI, as it was called before
+            "describe_parameter": _ignore,  # of CQGI
             "debug": _ignore,
             "log": _ignore,
             "cq": _CadQuery(),
+            "cadquery": _CadQuery(),
             "rand_color": lambda *_, **__: {},  # of CQ-editor: no two drawings would be alike
         }
     )
