@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import sys
-import sysconfig
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, cast
@@ -18,6 +16,7 @@ from hlr.batch.files_read import FilesRead, recording
 from hlr.batch.job import OF_PARTS, Job, Outcome, failed
 from hlr.batch.request import files_of, options_of
 from hlr.batch.unused_patterns import named
+from hlr.common.own_modules import forgotten, is_installed, own_modules
 from hlr.common.process import debugging
 from hlr.errors import HlrError, StrictError, respelled
 from hlr.source.step_references import references
@@ -33,11 +32,9 @@ if TYPE_CHECKING:
 
 def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
     """Draw all views of a job. Whatever goes wrong becomes a failure of the outcome; nothing is written."""
-    from importlib import invalidate_caches
-
-    invalidate_caches()  # modules beside a script may be new
     started, before = perf_counter(), set(sys.modules)
-    read = FilesRead([Path(job.root), Path(job.root, job.source).parent], _is_installed)
+    forgotten()  # of what was drawn before
+    read = FilesRead([Path(job.root), Path(job.root, job.source).parent], is_installed)
     try:
         with recording(read) if takes_parameters(Path(job.source)) else nullcontext():
             outcome = _drawn(job, progress)
@@ -60,9 +57,10 @@ def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
             "InternalError",
             f"{job.source}: internal error: {type(error).__name__}: {text}; this is a fault of hlr, please report it.",
         )
-    modules = _own_modules(set(sys.modules) - before)
+    modules = own_modules(set(sys.modules) - before)
     for name in modules:  # the next job imports them again, as they are then
         del sys.modules[name]
+    modules |= forgotten()
     source = Path(job.root, job.source)
     known = (job.source, *files_of(job.options, job.root).values())
     opened = set(read.files) - {Path(job.root, name).resolve() for name in known}
@@ -154,30 +152,6 @@ def _facts(drawing: Drawing, more: Sequence[Note], writing: float) -> dict[str, 
     # Numbers may be NumPy's.
     found: dict[str, Any] = json.loads(json.dumps(facts, default=lambda value: value.tolist()))
     return found
-
-
-def _own_modules(names: Iterable[str]) -> dict[str, Path]:
-    """Of these modules, those that no package manager has installed: name and file."""
-    found = {}
-    for name in names:
-        file = getattr(sys.modules.get(name), "__file__", None)
-        if file is None:
-            continue
-        path = Path(file).resolve()
-        if not _is_installed(path):
-            found[name] = path
-    return found
-
-
-def _is_installed(path: Path) -> bool:
-    """Whether a file belongs to Python, to hlr, or to what a package manager has installed. path: resolved."""
-    return "site-packages" in path.parts or any(path.is_relative_to(folder) for folder in _installed())
-
-
-@cache
-def _installed() -> list[Path]:
-    places = [Path(sysconfig.get_path(name)).resolve() for name in ("stdlib", "platstdlib", "purelib", "platlib")]
-    return [*places, Path(__file__).resolve().parents[1]]
 
 
 def _from_root(path: Path, root: str) -> str:

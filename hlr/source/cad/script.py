@@ -24,6 +24,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from hlr.common.own_modules import forgetting_own_modules
 from hlr.drawing.notes import Note
 from hlr.errors import OptionError, SourceError
 from hlr.request.options import Parameter
@@ -201,7 +202,7 @@ def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter]) -> d
     sys.argv = [str(path)]
     try:
         os.chdir(folder)
-        with stand_ins(showing), module_of(values):
+        with forgetting_own_modules(), stand_ins(showing), module_of(values):
             exec(compiled(path, parameters), values)
             _run_main_block(path, showing, values, parameters)
     except OptionError:

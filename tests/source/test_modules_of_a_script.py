@@ -1,0 +1,72 @@
+"""The modules of a script's own project are imported anew each time that it is drawn in one process."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from hlr.errors import SourceError
+from hlr.source import open_source
+
+pytest.importorskip("cadquery")
+PARTS = "import cadquery as cq\ndef part():\n    return cq.Workplane().box({}, 1, 1)\n"
+SCRIPT = "from parts_of_this_test import part\nresult = part()\n"
+
+
+def width(path: Path) -> float:
+    low, high = open_source(path).bounds()
+    return round(float(high[0] - low[0]), 3)
+
+
+def project(folder: Path, parts: str, script: str = SCRIPT) -> Path:
+    folder.mkdir(exist_ok=True)
+    (folder / "parts_of_this_test.py").write_text(parts)
+    (folder / "model.py").write_text(script)
+    return folder / "model.py"
+
+
+def test_two_projects_with_a_module_of_one_name(tmp_path):
+    first = project(tmp_path / "one", PARTS.format(3))
+    second = project(tmp_path / "two", PARTS.format(4))
+    assert [width(first), width(second), width(first)] == [3, 4, 3]
+
+
+def test_a_module_that_has_changed(tmp_path):
+    path = project(tmp_path, PARTS.format(3))
+    assert width(path) == 3
+    assert width(project(tmp_path, PARTS.format("30.5"))) == 30.5
+
+
+def test_a_module_that_shows_by_a_viewer(tmp_path):
+    parts = PARTS.format(3) + "from ocp_vscode import show\n"
+    path = project(tmp_path, parts, "from parts_of_this_test import part, show\nshow(part())\n")
+    assert [width(path), width(path)] == [3, 3]
+
+
+def test_a_module_inside_a_package(tmp_path):
+    (tmp_path / "kit_of_this_test").mkdir()
+    (tmp_path / "kit_of_this_test" / "__init__.py").write_text("")
+    (tmp_path / "model.py").write_text("from kit_of_this_test.parts import part\nresult = part()\n")
+    for size in (3, 45.25):
+        (tmp_path / "kit_of_this_test" / "parts.py").write_text(PARTS.format(size))
+        assert width(tmp_path / "model.py") == size
+
+
+def test_nothing_is_left_also_where_a_script_fails(tmp_path):
+    before = set(sys.modules)
+    width(project(tmp_path, PARTS.format(3)))
+    with pytest.raises(SourceError, match="line 3: ZeroDivisionError"):
+        width(project(tmp_path, PARTS.format(3), SCRIPT + "1 / 0\n"))
+    assert not {name for name in set(sys.modules) - before if "this_test" in name}
+
+
+def test_what_the_caller_has_imported_and_what_is_installed_stays(tmp_path, monkeypatch):
+    path = project(tmp_path, PARTS.format(3), "import cadquery.occ_impl.exporters.dxf\n" + SCRIPT)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    import parts_of_this_test
+
+    assert width(path) == 3
+    assert sys.modules.pop("parts_of_this_test") is parts_of_this_test
+    assert "cadquery.occ_impl.exporters.dxf" in sys.modules
