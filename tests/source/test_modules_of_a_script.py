@@ -54,6 +54,27 @@ def test_a_module_inside_a_package(tmp_path):
         assert width(tmp_path / "model.py") == size
 
 
+@pytest.mark.parametrize(
+    ("parts", "script", "sentence"),
+    [
+        ("def part():\n\n    return 1 / 0\n", SCRIPT, r"^model\.py, line 2 \({}, line 3\): ZeroDivisionError: div"),
+        ("\nraise ValueError('thin')\n", SCRIPT, r"^model\.py, line 1 \({}, line 2\): ValueError: thin"),
+        ("\n\nx = (\n", SCRIPT, r"^model\.py, line 1 \({}, line 3\): SyntaxError: '\(' was never closed"),
+        (PARTS.format("'a'"), SCRIPT, r"^model\.py, line 2 \({}, line 3\): "),  # what fails is CadQuery in it
+        (PARTS.format(1), SCRIPT + "x = (\n", r"^model\.py, line 3: SyntaxError: '\(' was never closed"),
+        (PARTS.format(1), SCRIPT + "1 / 0\n", r"^model\.py, line 3: ZeroDivisionError: division by zero"),
+        (
+            "def call(f):\n    return f()\n",
+            "from parts_of_this_test import call\ncall(lambda: 1 / 0)\n",
+            "line 2: Zero",
+        ),
+    ],
+)
+def test_a_failure_names_the_line_of_the_module_that_fails(tmp_path, parts, script, sentence):
+    with pytest.raises(SourceError, match=sentence.format(r"parts_of_this_test\.py")):
+        width(project(tmp_path, parts, script))
+
+
 def test_nothing_is_left_also_where_a_script_fails(tmp_path):
     before = set(sys.modules)
     width(project(tmp_path, PARTS.format(3)))

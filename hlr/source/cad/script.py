@@ -24,7 +24,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from hlr.common.own_modules import forgetting_own_modules
+from hlr.common.own_modules import forgetting_own_modules, is_installed
 from hlr.drawing.notes import Note
 from hlr.errors import OptionError, SourceError
 from hlr.request.options import Parameter
@@ -207,9 +207,6 @@ def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter]) -> d
             _run_main_block(path, showing, values, parameters)
     except OptionError:
         raise
-    except SyntaxError as error:
-        where = "" if error.lineno is None else f", line {error.lineno}"
-        raise SourceError(f"{path.name}{where}: SyntaxError: {error.msg}.") from None
     except SystemExit as error:
         if error.code not in (None, 0) and not showing.shown:
             raise SourceError(_left_early(path, error.code, values)) from None
@@ -260,10 +257,22 @@ def _working_folder() -> str | None:
 
 
 def _failure_message(path: Path, error: BaseException) -> str:
-    """One sentence: the line of the script, and the exception."""
+    """One sentence: the line of the script, that of its own module which fails, and the exception."""
     if isinstance(error, ImportError) and "libGL" in str(error):
         return f"{path.name}: {import_failure_message(error)}"
-    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
+    passed = [(frame.filename, frame.lineno) for frame in traceback.extract_tb(error.__traceback__)]
     text = " ".join(str(error).split())
-    where = f", line {lines[-1]}" if lines else ""
+    if isinstance(error, SyntaxError):
+        passed.append((error.filename or str(path), error.lineno))
+        text = error.msg
+    own = [(file, line) for file, line in passed if file == str(path) or _is_of_a_project(file)]
+    lines = [line for file, line in own if file == str(path)]
+    where = f", line {lines[-1]}" if lines and lines[-1] else ""
+    if own and own[-1][0] != str(path):  # in a module that the script imports
+        where += f" ({Path(own[-1][0]).name}, line {own[-1][1]})"
     return f"{path.name}{where}: {type(error).__name__}" + (f": {text}" if text else "")
+
+
+def _is_of_a_project(file: str) -> bool:
+    """Whether it is the file of a module that no package manager has installed. file: it may be such as <string>."""
+    return file.endswith(".py") and not is_installed(Path(file).resolve())
