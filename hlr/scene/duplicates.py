@@ -9,8 +9,8 @@ import numpy.typing as npt
 
 from hlr.common.distinct import distinct
 from hlr.common.types import Floats, Ints
-from hlr.scene.duplicate_triangles import row_numbers, unique_triangles
 from hlr.scene.flat_wedges import flat_wedges
+from hlr.source.mesh.duplicate_triangles import row_numbers, unique_triangles
 from hlr.source.model import PartMesh
 
 Indices = npt.NDArray[np.intp]

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.common.types import Ints
-from hlr.scene.duplicate_triangles import row_numbers
+from hlr.source.mesh.duplicate_triangles import row_numbers
 
 
 def flat_wedges(triangles: Ints, face: Ints, points: int) -> npt.NDArray[np.bool_]:

@@ -13,12 +13,8 @@ import numpy as np
 
 from hlr import _kernel
 from hlr.request.accuracy import STITCH
+from hlr.source.mesh.mending import MAX_GAP_SHARE
 from hlr.source.model import PartMesh
-
-MAX_GAP_SHARE = 5e-5
-"""Of a part's extent, at most: exporters state no tolerance. 0.01 mm of a part of 200 mm, by which CAD programs let the
-ends of edges miss one another. Of a mesh made face by face the gaps end well below, and up to twice that no new are
-found; what lies farther apart is a gap of the model's own."""
 
 
 def stitch_borders(parts: list[PartMesh], borders: list[int], deflection: float) -> tuple[list[PartMesh], int]:

@@ -6,10 +6,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from hlr.common.types import Floats, Ints
 from hlr.source.mesh.clipping import clipped
 from hlr.source.mesh.closed import of_closed_bodies
+from hlr.source.mesh.mending import mended
 from hlr.source.model import PartMesh
 from hlr.source.stepped import Stepped
 
@@ -37,32 +39,47 @@ def cut_mesh(part: PartMesh, planes: Stepped, near: float) -> list[MeshPiece]:
     """
     # Numbers near zero lose nothing where the plane is set against them.
     middle = 0.5 * (part.points.min(axis=0) + part.points.max(axis=0))
-    points, triangles = part.points - middle, part.triangles
+    points = part.points - middle
     place = np.eye(4)
     place[:3, 3] = middle
     planes = planes.before(place)
-    outward = triangles
-    a, b, c = points[triangles].transpose(1, 0, 2)
-    if float((np.cross(a, b) * c).sum()) < 0.0:  # turned inside out
-        outward = np.ascontiguousarray(triangles[:, ::-1])
-    body, joined = _body(points, outward)
-    closed = np.ones(len(triangles), bool)
-    if body is None:
-        closed = of_closed_bodies(joined, len(points))
-        body = _body(points, outward[closed])[0] if closed.any() else None
-        closed &= body is not None
+    body, triangles, closed = _bodies(points, part.triangles)
     pieces = []
     for rows, is_closed in ((closed, True), (~closed, False)):
         if not rows.any():
             continue
         low, high = planes.reach(points[triangles[rows]].reshape(-1, 3))
         if body is not None and is_closed:
-            found = _without(body, points, outward[closed], planes, near)
+            found = _without(body, points, triangles[closed], planes, near)
         else:
             found = clipped(points, triangles[rows], planes, near)
         if len(found[1]):
             pieces.append(MeshPiece(found[0] + middle, found[1], is_closed, low < -near < near < high))
     return pieces
+
+
+def _bodies(points: Floats, triangles: Ints) -> tuple[Any | None, Ints, npt.NDArray[np.bool_]]:
+    """The closed bodies of triangles (m, 3) as one; the triangles (k, 3), turned outward, and which are of the bodies.
+
+    Triangles that close nothing are mended first. None, and the triangles as they are, where they close nothing then.
+    """
+    outward = _outward(points, triangles)
+    body, _ = _body(points, outward)
+    if body is not None:
+        return body, outward, np.ones(len(outward), bool)
+    outward = _outward(points, mended(points, triangles))
+    body, joined = _body(points, outward)
+    closed = np.ones(len(outward), bool)
+    if body is None:
+        closed = of_closed_bodies(joined, len(points))
+        body = _body(points, outward[closed])[0] if closed.any() else None
+    return (None, triangles, np.zeros(len(triangles), bool)) if body is None else (body, outward, closed)
+
+
+def _outward(points: Floats, triangles: Ints) -> Ints:
+    """Triangles (m, 3), turned over where they are inside out."""
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    return np.ascontiguousarray(triangles[:, ::-1]) if float((np.cross(a, b) * c).sum()) < 0.0 else triangles
 
 
 def _without(body: Any, points: Floats, triangles: Ints, planes: Stepped, near: float) -> tuple[Floats, Ints]:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from hlr.scene.duplicate_triangles import unique_triangles
+from hlr.source.mesh.duplicate_triangles import unique_triangles
 
 SHAPES = {
     "box": trimesh.creation.box(),
