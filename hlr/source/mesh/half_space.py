@@ -9,9 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.common.types import Floats, Ints
+from hlr.source.mesh.capping import checked, together
 from hlr.source.mesh.clipping import clipped
 from hlr.source.mesh.closed import of_closed_bodies
 from hlr.source.mesh.mending import mended
+from hlr.source.mesh.one_by_one import body_numbers, one_by_one
 from hlr.source.model import PartMesh
 from hlr.source.stepped import Stepped
 
@@ -105,10 +107,36 @@ def _without(body: Any, points: Floats, triangles: Ints, planes: Stepped, near: 
         high = np.minimum([end, np.inf, level - planes.levels[0]], far * BEYOND[1])
         if (high > low).all():
             behind += _block(low, high)
-    # Unlike a difference, this keeps the border between a face that lay on a plane and the cut around it.
-    body = body ^ behind
-    left = body.to_mesh64()
-    return np.asarray(left.vert_properties)[:, :3] @ axes + origin, np.asarray(left.tri_verts).astype(np.int32)
+    # Unlike a difference, this keeps the border between a face that lay on a plane and the cut around it. Bodies of one
+    # mesh may overlap: cut together, they would have one cut face, along the borders of neither.
+    lowest, highest = float(planes.levels.min() - planes.levels[0]), float(planes.levels.max() - planes.levels[0])
+    pieces = [(np.empty((0, 3)), np.empty((0, 3), np.int32))]
+    number = body_numbers(put, triangles)
+    for each in _bodies_of(body, put, one_by_one(triangles, number)):
+        _, _, low, _, _, high = each.bounding_box()
+        # Of a body that stands on a plane a film would be left.
+        if low < highest - near:
+            pieces.append(_of(each if high <= lowest else each ^ behind))
+    left = together(pieces)
+    if not len(planes.steps):
+        left = checked(put, triangles, number, left, near)
+    return left[0] @ axes + origin, left[1]
+
+
+def _bodies_of(whole: Any, points: Floats, parts: list[Ints]) -> list[Any]:
+    """The bodies that triangles (m, 3) of a whole one close, part by part; the whole where one of them closes none."""
+    if len(parts) < 2:
+        return [whole]
+    found = []
+    for rows in parts:
+        used, own = np.unique(rows, return_inverse=True)
+        found.append(_body(points[used], own.reshape(-1, 3).astype(np.int32))[0])
+    return [whole] if any(each is None for each in found) else found
+
+
+def _of(body: Any) -> tuple[Floats, Ints]:
+    mesh = body.to_mesh64()
+    return np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts).astype(np.int32)
 
 
 def _block(low: Floats, high: Floats) -> Any:
