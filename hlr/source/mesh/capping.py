@@ -21,6 +21,9 @@ from hlr.source.stepped import Stepped
 ALIKE = 1e-4
 """Of the length of all borders of cut faces, and of their area: what two ways to cut a body may differ by."""
 
+MOST_SIDES = 20_000
+"""Sides of a cut face beyond which nothing asks where they cross: each is compared with all others."""
+
 ROUNDING = 1e-9
 """Of the area of a cut face: what its triangles may overlap by."""
 
@@ -107,7 +110,7 @@ def checked(
     made = []
     for body in open_ones:
         divided, faces_of = body, body.faces()
-        if faces_of is None:
+        if faces_of is None and len(body.ends) <= MOST_SIDES:
             divided = body.divided()
             faces_of = divided.faces()
         if faces_of is None:
