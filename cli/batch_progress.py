@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING
 
-from hlr.batch.printed import last_lines
 from hlr.batch.run import source_size
+from hlr.batch.script_output import last_lines
 from hlr.common.printable import printable
 from hlr.errors import counted
 

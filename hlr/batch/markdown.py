@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from hlr.batch.junit import title
-from hlr.batch.printed import last_lines
+from hlr.batch.script_output import last_lines
 from hlr.errors import counted
 
 _MOST_ROWS = 200

@@ -33,7 +33,7 @@ from hlr.batch.carry_out import carry_out
 from hlr.batch.discover import takes_parameters
 from hlr.batch.frames import receive, send
 from hlr.batch.job import Job
-from hlr.batch.printed import Printed
+from hlr.batch.script_output import ScriptOutput
 from hlr.common.leftovers import Leftovers
 from hlr.common.process import claim, debugging, tie_to, without_core_files
 from hlr.tables.entry import called
@@ -100,7 +100,7 @@ def _in_child(job: Job, writing: int, imported: set[str]) -> bool:
     """Do a job in a child, and pass on what it says. Returns whether the job has to start again."""
     here, there = os.pipe()
     own, left = os.getpid(), Leftovers()
-    printed = Printed() if takes_parameters(Path(job.source)) and not debugging() else None
+    printed = ScriptOutput() if takes_parameters(Path(job.source)) and not debugging() else None
     child = os.fork()
     if not child:
         _be_child(job, there, own, imported, printed)
@@ -128,7 +128,7 @@ def _in_child(job: Job, writing: int, imported: set[str]) -> bool:
     return False
 
 
-def _be_child(job: Job, writing: int, parent: int, imported: set[str], printed: Printed | None) -> NoReturn:
+def _be_child(job: Job, writing: int, parent: int, imported: set[str], printed: ScriptOutput | None) -> NoReturn:
     code = 1
     try:
         tie_to(parent)
@@ -146,7 +146,7 @@ def _be_child(job: Job, writing: int, parent: int, imported: set[str], printed: 
         os._exit(code)
 
 
-def _pass_on(here: int, child: int, writing: int, printed: Printed | None) -> tuple[Any, ...]:
+def _pass_on(here: int, child: int, writing: int, printed: ScriptOutput | None) -> tuple[Any, ...]:
     """Pass on the stages of a child. Returns its last message: an outcome, or a package that it needs, or ()."""
     with contextlib.suppress(EOFError):
         while True:

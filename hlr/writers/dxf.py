@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Bounds
-from hlr.drawing.printed import printed
+from hlr.drawing.underlay import underlay
 from hlr.writers.dxf_entities import APPLICATION, Target, entities, rounded_length
 from hlr.writers.dxf_fill import hatch
 from hlr.writers.dxf_layers import CONTRAST, FILL, Layers
@@ -56,7 +56,7 @@ def dxf(drawing: Drawing, unit: int = MILLIMETRES) -> bytes:
         _set_header(document, drawing, modern, unit)
         places = Layers(document, drawing, modern, true_colors).tags()
         model = document.modelspace()
-        if under := printed(drawing, solid=True, marks=False):
+        if under := underlay(drawing, solid=True, marks=False):
             from hlr.writers.dxf_template import add_template
 
             page = _page(drawing)

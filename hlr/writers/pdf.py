@@ -19,7 +19,7 @@ import pydyf
 from hlr.common.colors import rgb_of
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.fill import Fill
-from hlr.drawing.printed import printed
+from hlr.drawing.underlay import underlay
 from hlr.writers.number import number
 from hlr.writers.page_fonts import PageFonts
 from hlr.writers.strokes import Inked, Strokes, strokes
@@ -86,7 +86,7 @@ def document(drawing: Drawing, page: Strokes, sheet: Sheet) -> bytes:
 
     names = {f"L{i}": reference for i, reference in enumerate(layers.references)}
     resources = {"Properties": pydyf.Dictionary(names)}
-    if printed(drawing):
+    if underlay(drawing):
         resources["Font"] = pydyf.Dictionary(fonts.resources(made))
     if drawing.fill is not None:
         from hlr.writers.fill import painted, pdf_resources
@@ -138,7 +138,7 @@ def _content(drawing: Drawing, page: Strokes, sheet: Sheet, layers: _Layers, fon
         area = f"0 0 {_real(sheet.width)} {_real(sheet.height)} re f"
         out.append(f"{begin} {_color(drawing.style.background or PAPER)} rg {area} EMC\n".encode("ascii"))
     out.append(f"{matrix} cm 1 j\n".encode("ascii"))
-    if under := printed(drawing, solid=True):
+    if under := underlay(drawing, solid=True):
         from hlr.writers.template_pdf import template_commands
 
         begin = layers.begin("template", "Template")

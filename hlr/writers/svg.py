@@ -25,9 +25,9 @@ from typing import cast
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.lines import held
 from hlr.drawing.pens import Pen, PenSet, part_color
-from hlr.drawing.printed import printed
 from hlr.drawing.scale import ratio
 from hlr.drawing.sheet import SheetView
+from hlr.drawing.underlay import underlay
 from hlr.errors import counted
 from hlr.request.directions import NAMED, axes, directed
 from hlr.request.options import View
@@ -59,7 +59,7 @@ def svg(drawing: Drawing) -> bytes:
         f"<title>{escaped(title(drawing))}</title>\n",
         f"<desc>{escaped(description(drawing))}</desc>\n",
         _metadata(drawing),
-        template(printed(drawing), page),
+        template(underlay(drawing), page),
     ]
     if drawing.fill is not None:
         from hlr.writers.fill import painted, svg_group

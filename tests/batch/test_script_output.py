@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from hlr.batch.printed import MOST, Printed, last_lines
+from hlr.batch.script_output import MOST, ScriptOutput, last_lines
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="needs a file in memory")
 
@@ -46,7 +46,7 @@ def test_what_failing_scripts_print_is_found_in_the_report(tmp_path):
 
 
 def test_the_end_is_kept_however_much_is_printed():
-    printed = Printed()
+    printed = ScriptOutput()
     child = os.fork()
     if not child:
         printed.take()

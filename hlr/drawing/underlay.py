@@ -7,7 +7,7 @@ from hlr.drawing.pens import usual_pens_of
 from hlr.drawing.projection_symbol import projection_symbol
 
 
-def printed(drawing: Drawing, solid: bool = False, marks: bool = True) -> str:
+def underlay(drawing: Drawing, solid: bool = False, marks: bool = True) -> str:
     """SVG elements in millimetres from the page's upper left corner; empty where nothing is printed.
 
     solid: for formats that know no currentColor. marks: with those of sections.

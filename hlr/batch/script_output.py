@@ -12,7 +12,6 @@ MOST = 4000
 _ROOM = 1 << 20
 """Bytes that a script may print until the worker throws away all but the end."""
 
-
 _LONGEST = 200
 """Characters that are shown of a line."""
 
@@ -23,7 +22,7 @@ def last_lines(text: str, most: int) -> list[str]:
     return [line if len(line) <= _LONGEST else f"{line[: _LONGEST - 4]} ..." for line in lines]
 
 
-class Printed:
+class ScriptOutput:
     """A place in memory that a child's standard output and errors go to, made before the child (Linux).
 
     Where the system has none, what is printed goes nowhere.
