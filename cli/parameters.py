@@ -262,6 +262,11 @@ class Pixels(click.ParamType[tuple[int, int]]):
 
     name = "WxH"
 
+    @staticmethod
+    def text(size: tuple[int, int]) -> str:
+        """A size as it is given."""
+        return f"{size[0]}x{size[1]}"
+
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
         """Two positive whole numbers; what is too large the pictures' own check says."""
         match = re.fullmatch(r"\s*(\d{1,9})\s*[xX×]\s*(\d{1,9})\s*", str(value))

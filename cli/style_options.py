@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from hlr.request.defaults import DPI
+from hlr.request.style_check import MOST_DPI
 from hlr.request.styles import STYLES
 
 from .parameters import Number, Pixels
@@ -36,9 +38,9 @@ STYLE = (
     ),
     click.option(
         "--dpi",
-        type=Number(1.0, 10_000.0),
+        type=Number(1.0, MOST_DPI),
         metavar="N",
-        help="PNG: pixels per inch of paper. Default: 200.",
+        help=f"PNG: pixels per inch of paper. Default: {DPI:g}.",
     ),
     click.option("--size", type=Pixels(), metavar="WxH", help="PNG: in pixels, instead of --dpi."),
 )

@@ -10,8 +10,8 @@ import click
 from hlr.errors import OptionError
 from hlr.request.accuracy import DEFAULT_ACCURACY
 from hlr.request.concerns import OF_SOURCES
+from hlr.request.defaults import CREASE
 from hlr.request.directions import EYE, NAMED
-from hlr.request.options import CREASE
 
 from .parameters import (
     Duration,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hlr.errors import OptionError
+from hlr.request.defaults import COMPARE_TOLERANCE_MM
 from hlr.tables.readers import is_model, of_ending
 
 from ..guard import possible, start
@@ -42,8 +43,8 @@ _MOST_ROWS = 20
     "--tolerance",
     type=Number(),
     metavar="MM",
-    default=0.1,
-    help="How far apart on paper two lines may lie that count as the same. Default: 0.1.",
+    default=COMPARE_TOLERANCE_MM,
+    help=f"How far apart on paper two lines may lie that count as the same. Default: {COMPARE_TOLERANCE_MM:g}.",
 )
 @click.option(
     "--register",

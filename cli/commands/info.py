@@ -9,7 +9,7 @@ import click
 from hlr.common.columns import columns, left, right
 from hlr.common.numbers import typed
 from hlr.common.printable import printable
-from hlr.request.options import CREASE
+from hlr.request.defaults import CREASE
 
 from ..guard import start
 from ..meter import meter

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from hlr.request.defaults import METHODS_LIMIT_S, METHODS_SIZE
+
 from ..guard import start
 from ..meter import meter
 from ..outputs import in_folder, place
@@ -29,7 +31,13 @@ if TYPE_CHECKING:
     help="A folder for methods.csv, methods.md and the plot methods.png.",
 )
 @options(*CHOICE)
-@click.option("--size", type=Pixels(), metavar="WxH", default="1024x1024", help="Pixels. Default: 1024x1024.")
+@click.option(
+    "--size",
+    type=Pixels(),
+    metavar="WxH",
+    default=Pixels.text(METHODS_SIZE),
+    help=f"Pixels. Default: {Pixels.text(METHODS_SIZE)}.",
+)
 @click.option(
     "--polygons",
     "counts",
@@ -58,8 +66,8 @@ if TYPE_CHECKING:
     "--limit",
     type=Number(0.0, above=True),
     metavar="S",
-    default=10.0,
-    help="Processor time for each method and scene, in seconds. Default: 10.",
+    default=METHODS_LIMIT_S,
+    help=f"Processor time for each method and scene, in seconds. Default: {METHODS_LIMIT_S:g}.",
 )
 @TIME_LIMIT
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")

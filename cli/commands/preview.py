@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hlr.errors import OptionError
+from hlr.request.defaults import PREVIEW_BACKGROUND, PREVIEW_LOOK, PREVIEW_SIZE
 
 from ..guard import start
 from ..meter import meter
@@ -36,12 +37,19 @@ if TYPE_CHECKING:
 )
 @VIEW
 @options(*CHOICE)
-@click.option("--size", type=Pixels(), metavar="WxH", default="1920x1080", help="In pixels. Default: 1920x1080.")
+@click.option(
+    "--size",
+    type=Pixels(),
+    metavar="WxH",
+    default=Pixels.text(PREVIEW_SIZE),
+    help=f"In pixels. Default: {Pixels.text(PREVIEW_SIZE)}.",
+)
 @click.option(
     "--look",
     type=click.Choice(["shaded", "wireframe", "depth-cued"]),
-    default="shaded",
-    help="Shaded faces; all lines, hidden or not, without faces; or these lines, paler with distance. Default: shaded.",
+    default=PREVIEW_LOOK,
+    help="Shaded faces; all lines, hidden or not, without faces; or these lines, paler with distance. "
+    f"Default: {PREVIEW_LOOK}.",
 )
 @click.option("--edges", is_flag=True, help="The visible lines of the drawing on top; behind glass, lighter.")
 @click.option(
@@ -50,7 +58,10 @@ if TYPE_CHECKING:
     help="With --edges: also tangent edges, thin. Default: in pictorial views only.",
 )
 @click.option(
-    "--background", metavar="COLOUR", default="white", help="A CSS name, #rrggbb or transparent. Default: white."
+    "--background",
+    metavar="COLOUR",
+    default=PREVIEW_BACKGROUND,
+    help=f"A CSS name, #rrggbb or transparent. Default: {PREVIEW_BACKGROUND}.",
 )
 @click.option("--antialias/--no-antialias", default=True, help="Sixteen samples per pixel. Default: on.")
 @click.option("--shadows", is_flag=True, help="The light casts shadows.")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hlr.errors import OptionError, SourceError
+from hlr.request.defaults import STUDY_LIMIT_S, STUDY_RUNS
 from hlr.tables.sheets import papers
 
 from ..guard import without_worker
@@ -65,10 +66,12 @@ _MILLIMETRES = Number(0.0, above=True)
     "--limit",
     type=_MILLIMETRES,
     metavar="S",
-    default=30.0,
-    help="Processor time for each point in seconds, reading included. Default: 30.",
+    default=STUDY_LIMIT_S,
+    help=f"Processor time for each point in seconds, reading included. Default: {STUDY_LIMIT_S:g}.",
 )
-@click.option("--runs", type=Whole(1), metavar="N", default=3, help="Runs of each point. Default: 3.")
+@click.option(
+    "--runs", type=Whole(1), metavar="N", default=STUDY_RUNS, help=f"Runs of each point. Default: {STUDY_RUNS}."
+)
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
 def study(  # noqa: PLR0913 - one for each option of the command
     *,

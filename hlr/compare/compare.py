@@ -24,6 +24,7 @@ from hlr.compare.reading.model import sides_of, without_undrawn
 from hlr.compare.reading.sides import Side
 from hlr.compare.verdict.verdicts import with_verdicts
 from hlr.errors import OptionError
+from hlr.request.defaults import COMPARE_TOLERANCE_MM
 from hlr.request.options import Chosen, View
 
 if TYPE_CHECKING:
@@ -51,7 +52,7 @@ def compare(
     a: Any,
     b: Any,
     *,
-    tolerance_mm: float = 0.1,
+    tolerance_mm: float = COMPARE_TOLERANCE_MM,
     register: Registration = "auto",
     page: str | None = None,
     view: View | None = None,

@@ -25,6 +25,7 @@ from hlr.compare.comparison import Comparison
 from hlr.compare.reading.choice import Choice
 from hlr.errors import OptionError, SourceError
 from hlr.pipeline.draw import draw_views
+from hlr.request.defaults import COMPARE_TOLERANCE_MM
 from hlr.request.directions import axes, directed
 from hlr.request.options import Chosen, View
 from hlr.source import open_source
@@ -113,7 +114,7 @@ def compare_with_freecad(
     *,
     scale: float | None = None,
     coarse: bool = False,
-    tolerance_mm: float = 0.1,
+    tolerance_mm: float = COMPARE_TOLERANCE_MM,
     time_limit_s: float = TIME_LIMIT_S,
     progress: Progress | None = None,
     **choice: Unpack[Chosen],

@@ -9,7 +9,8 @@ from hlr.common.types import Progress
 from hlr.drawing.model_info import ModelInfo, PartReport
 from hlr.pipeline.session import Session
 from hlr.request.check import checked
-from hlr.request.options import CREASE, Options, Parameter
+from hlr.request.defaults import CREASE
+from hlr.request.options import Options, Parameter
 
 
 def info(

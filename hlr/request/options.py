@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, TypedDict
 
+from hlr.request.defaults import CREASE
 from hlr.request.style_file import StyleLike
 
 Vector = tuple[float, float, float]
@@ -29,10 +30,6 @@ SectionPlace = bool | float | Vector | Steps
 
 SectionLike = SectionPlace | Mapping[str, SectionPlace] | Sequence[tuple[str, SectionPlace]]
 """Where all views are cut, or some of them, by name; pairs where several planes cut one view."""
-
-
-CREASE = 30.0
-"""Degrees: the crease angle of meshes, unless another is asked for."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,8 +12,9 @@ import numpy as np
 from hlr.common.numbers import typed
 from hlr.errors import OptionError
 from hlr.request.check import checked
+from hlr.request.defaults import CREASE, PREVIEW_BACKGROUND, PREVIEW_LOOK, PREVIEW_SIZE
 from hlr.request.effect import ASKED, SCENE, Effect, Facts, Planner
-from hlr.request.options import CREASE, Chosen, Options, Parameter, Perspective, Vector
+from hlr.request.options import Chosen, Options, Parameter, Perspective, Vector
 from hlr.request.style_check import MOST_PIXELS, MOST_PIXELS_A_SIDE
 
 PIXELS_PER_MM = 4.0
@@ -65,8 +66,8 @@ class PreviewOptions:
     [<Picture part.step, iso, 320x240 pixels>]
     """
 
-    size: tuple[int, int] = (1920, 1080)
-    background: str = "white"
+    size: tuple[int, int] = PREVIEW_SIZE
+    background: str = PREVIEW_BACKGROUND
     edges: bool = False
     antialias: bool = True
     shadows: bool = False
@@ -87,7 +88,7 @@ class PreviewOptions:
     parameters: Mapping[str, Parameter] | None = field(default=None, hash=False)
     annotations: bool = False
     hidden_objects: bool = False
-    look: str = "shaded"
+    look: str = PREVIEW_LOOK
 
 
 class PreviewWishes(Chosen, total=False):

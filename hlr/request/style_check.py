@@ -14,9 +14,6 @@ from hlr.tables.entry import listed
 CURRENT = "currentColor"
 """In place of a colour: in SVG the colour of the text around the drawing, elsewhere black."""
 
-DPI = 200.0
-"""Pixels per inch of PNG files where neither these nor a size are asked for."""
-
 WIDTHS = (0.01, 100.0)
 """Least and greatest width of a line, millimetres."""
 

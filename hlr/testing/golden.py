@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
+from hlr.request.defaults import COMPARE_TOLERANCE_MM
 from hlr.testing.session import SESSION
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def assert_same_drawing(
     golden: str | os.PathLike[str],
     *,
     view: View | None = None,
-    tolerance_mm: float = 0.1,
+    tolerance_mm: float = COMPARE_TOLERANCE_MM,
     register: Registration = "translation",
     **wishes: Unpack[Wishes],
 ) -> None:

@@ -12,7 +12,8 @@ from hlr.common.colors import rgb_of
 from hlr.common.numbers import typed
 from hlr.drawing.drawing import Drawing
 from hlr.errors import WriteError
-from hlr.request.style_check import DPI, MOST_PIXELS, MOST_PIXELS_A_SIDE
+from hlr.request.defaults import DPI
+from hlr.request.style_check import MOST_PIXELS, MOST_PIXELS_A_SIDE
 from hlr.writers.pdf import Sheet, document
 from hlr.writers.png import MM_PER_INCH, encoded
 from hlr.writers.strokes import Strokes, strokes

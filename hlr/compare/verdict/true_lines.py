@@ -18,7 +18,7 @@ from hlr.compare.verdict.turning import turning_edges
 from hlr.drawing.drawing import Drawing
 from hlr.image.camera import Camera
 from hlr.request.accuracy import ANGLE
-from hlr.request.options import CREASE
+from hlr.request.defaults import CREASE
 from hlr.scene.build import build
 from hlr.scene.scene import Scene
 from hlr.tables.line_classes import INTERIOR, EdgeClass

@@ -15,6 +15,7 @@ from hlr.lab.methods.testbed import COUNTS, polygons
 from hlr.lab.methods.timing import TRIALS, Scenery, Timing, Trial, label, measure
 from hlr.lab.methods.viewport import SCREEN, Screen, checked_size, viewport
 from hlr.request.check import checked, checked_views
+from hlr.request.defaults import METHODS_LIMIT_S, METHODS_SIZE
 from hlr.request.options import Options, Parameter, View
 
 MOST = 10_000_000
@@ -27,8 +28,8 @@ def compare_methods(  # noqa: PLR0913 - one for each thing a user may ask
     counts: Sequence[int] | None = None,
     crossing: Sequence[int] = (),
     view: View = "iso",
-    size: tuple[int, int] = (1024, 1024),
-    limit: float = 10.0,
+    size: tuple[int, int] = METHODS_SIZE,
+    limit: float = METHODS_LIMIT_S,
     methods: Sequence[str] = (),
     only: Sequence[str] = (),
     hide: Sequence[str] = (),

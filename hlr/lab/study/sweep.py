@@ -12,6 +12,7 @@ from hlr.errors import OptionError, SourceError
 from hlr.lab.study.job import ACCURACIES, EXACT, HLR, PIXELS, POLY, PREDICATES, ZBUFFER, Job, Point, point_of
 from hlr.lab.study.process import answer
 from hlr.request.check import check_accuracy
+from hlr.request.defaults import STUDY_LIMIT_S, STUDY_RUNS
 from hlr.request.options import Parameter, View
 
 A4 = (277.0, 190.0)
@@ -76,8 +77,8 @@ def study(  # noqa: PLR0913 - one for each thing a user may ask
     scale: float | None = None,
     fit: tuple[float, float] | None = None,
     scope: Scope | None = None,
-    limit: float = 30.0,
-    runs: int = 3,
+    limit: float = STUDY_LIMIT_S,
+    runs: int = STUDY_RUNS,
     only: Sequence[str] = (),
     hide: Sequence[str] = (),
     var: str | None = None,
