@@ -3,25 +3,25 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
-pub mod bodies;
+mod bodies;
 pub mod boxes;
 pub mod clean;
-pub mod convexity;
+mod convexity;
 pub mod edge_flips;
 pub mod facts;
 pub mod groups;
 pub mod kinds;
 pub mod layers;
-pub mod listed_twice;
+mod listed_twice;
 pub mod measure;
 pub mod meshfile;
 pub mod needles;
 pub mod placed;
-pub mod ray_count;
+mod ray_count;
 pub mod repeats;
-pub mod same_place;
+mod same_place;
 pub mod scene;
-pub mod sizes;
+mod sizes;
 pub mod stitch;
 pub mod tables;
 pub mod topology;

@@ -23,33 +23,33 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod depth_map;
-pub mod edge_functions;
+mod edge_functions;
 pub mod face;
 pub mod faces;
 pub mod fill;
 pub mod grid;
 pub mod lens;
-pub mod narrow_faces;
-pub mod near_clip;
+mod narrow_faces;
+mod near_clip;
 pub mod normals;
 pub mod occlusion;
 pub mod picture;
-pub mod plane;
-pub mod pyramid;
-pub mod raster;
-pub mod resolve;
-pub mod row_spans;
+mod plane;
+mod pyramid;
+mod raster;
+mod resolve;
+mod row_spans;
 pub mod sampling;
 pub mod shade;
-pub mod shading_cache;
+mod shading_cache;
 pub mod shadow;
-pub mod slope;
+mod slope;
 pub mod stroke;
-pub mod surface;
-pub mod tile;
-pub mod tile_lists;
-pub mod tiles;
-pub mod transparent;
+mod surface;
+mod tile;
+mod tile_lists;
+mod tiles;
+mod transparent;
 pub mod workspace;
 
 /// A model to be shown, borrowed. Colours are linear light, not premultiplied; alpha below one is transparent.

@@ -2,17 +2,17 @@
 
 mod basis;
 pub mod curve;
-pub mod jet;
-pub mod moved_surface;
+pub(crate) mod jet;
+pub(crate) mod moved_surface;
 pub mod nurbs;
-pub mod offset_curve;
+pub(crate) mod offset_curve;
 mod offset_surface;
-pub mod periodic;
+pub(crate) mod periodic;
 pub mod planar;
 mod spans;
-pub mod spline_surface;
+pub(crate) mod spline_surface;
 pub mod surface;
-pub mod surface_jet;
-pub mod turning;
+mod surface_jet;
+mod turning;
 pub mod vector;
-pub mod waves;
+pub(crate) mod waves;

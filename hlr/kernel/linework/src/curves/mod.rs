@@ -7,10 +7,10 @@
 
 pub mod arcs;
 pub mod dashes;
-pub mod digits;
+mod digits;
 pub mod layer;
-pub mod length;
+mod length;
 pub mod pdf;
 pub mod rows;
-pub mod strokes;
+mod strokes;
 pub mod svg;

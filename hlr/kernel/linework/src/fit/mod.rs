@@ -13,24 +13,24 @@
 //!
 //! A curve that is farther from its line than the accuracy is rejected: the line stays a polyline.
 
-pub mod arc;
+pub(crate) mod arc;
 pub mod bezier;
-pub mod contour_fit;
-pub mod cubic;
-pub mod junction;
-pub mod locate;
-pub mod pierced;
-pub mod placed;
-pub mod places;
-pub mod plane;
-pub mod project;
+mod contour_fit;
+mod cubic;
+mod junction;
+mod locate;
+pub(crate) mod pierced;
+mod placed;
+mod places;
+pub(crate) mod plane;
+pub(crate) mod project;
 pub mod route;
 pub mod routes;
-pub mod shared_end;
-pub mod smooth;
-pub mod smooth_joints;
-pub mod straight;
-pub mod track;
+mod shared_end;
+pub(crate) mod smooth;
+mod smooth_joints;
+mod straight;
+mod track;
 
 use arc::grow;
 use bezier::Chain;

@@ -22,8 +22,6 @@ use hlr_brep::geometry::vector::{Vector, cross, dot, length, sub, unit};
 /// A change of sign on an edge: on one of its faces, or on both where they are one surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing {
-    /// The edge, where it is the border of a face or divides it.
-    pub border: Option<u32>,
     pub triangles: [i32; 2],
     pub place: Place,
 }
@@ -123,7 +121,7 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
                     if side.changes()
                         && let Some(place) = side.at(side.change())
                     {
-                        crossings.push(Crossing { border: None, triangles: [around[0], around[1]], place });
+                        crossings.push(Crossing { triangles: [around[0], around[1]], place });
                     }
                     continue;
                 }
@@ -138,7 +136,7 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
                         if k < 2 {
                             at[k] = Some((t, crossings.len() as u32, place));
                         }
-                        crossings.push(Crossing { border: Some(e as u32), triangles: [side.triangle, -1], place });
+                        crossings.push(Crossing { triangles: [side.triangle, -1], place });
                     }
                 }
                 if model.smooth[e] && around.len() == 2 && sides.len() == 2 {

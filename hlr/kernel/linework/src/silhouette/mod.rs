@@ -26,21 +26,21 @@
 //! edge-on that runs into a fillet is a fold along its nearer border only. Where what lies before that border is turned
 //! away as well, the farther border is the outline.
 
-pub mod behind;
-pub mod contour;
-pub mod crossed;
-pub mod curve;
-pub mod face;
+mod behind;
+mod contour;
+mod crossed;
+pub(crate) mod curve;
+mod face;
 pub mod grazing;
 pub mod image;
 pub mod outlined;
-pub mod own_lines;
-pub mod refine;
-pub mod side;
+mod own_lines;
+mod refine;
+pub(crate) mod side;
 pub mod sought;
-pub mod split;
+mod split;
 pub mod trace;
-pub mod wrinkle;
+mod wrinkle;
 
 #[cfg(test)]
 mod tests;

@@ -3,6 +3,6 @@
 //! All of it is in floating point and shares no code with the visibility pass: what judges a drawing must not share its
 //! faults.
 
-pub mod boxes;
+pub(crate) mod boxes;
 pub mod nearest;
 pub mod rays;

@@ -7,9 +7,9 @@ pub mod obj;
 pub mod off;
 pub mod ply;
 mod ply_type;
-pub mod polygon;
+mod polygon;
 pub mod stl;
-pub mod text;
+mod text;
 
 /// What a file holds. Each piece is a part of its own; all share the points.
 #[derive(Debug, Default, PartialEq)]

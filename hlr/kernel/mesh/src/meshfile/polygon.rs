@@ -24,10 +24,6 @@ impl Faces {
         if self.ends.is_empty() { self.corners.len() / 3 } else { self.ends.len() }
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.corners.is_empty()
-    }
-
     /// A face; none of fewer than three corners. Numbers that do not fit become -1.
     pub fn push(&mut self, face: &[i64]) -> bool {
         if face.len() < 3 {

@@ -18,14 +18,14 @@
 //! need no order. Neighbours share their border, without gap or overlap.
 
 pub mod areas;
-pub mod chains;
-pub mod conical;
-pub mod crossing;
-pub mod runs;
-pub mod samples;
-pub mod specks;
-pub mod straighten;
-pub mod tone;
+mod chains;
+mod conical;
+mod crossing;
+mod runs;
+mod samples;
+mod specks;
+mod straighten;
+mod tone;
 
 use crate::shade::Scene;
 use crate::workspace::Workspace;

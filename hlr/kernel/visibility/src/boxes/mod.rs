@@ -7,7 +7,7 @@
 //! `meeting` which boxes of a few overlap others
 
 pub mod aabb;
-pub mod meeting;
+pub(crate) mod meeting;
 mod morton;
-pub mod pairs;
+pub(crate) mod pairs;
 pub mod tree;

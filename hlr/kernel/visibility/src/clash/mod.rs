@@ -21,18 +21,18 @@
 //! without triangles, which the visibility pass treats like any wire: their ends, rounded to the grid, lie off both
 //! surfaces by less than the contact tolerance.
 
-pub mod apart;
-pub mod chord_ends;
-pub mod contacts;
+mod apart;
+mod chord_ends;
+mod contacts;
 pub mod crossings;
-pub mod depth;
+mod depth;
 mod gaps;
-pub mod height_field;
+mod height_field;
 pub mod planar_faces;
-pub mod planes;
-pub mod reach;
+mod planes;
+mod reach;
 pub mod search;
 pub mod surfaces;
 pub mod triangle_pair;
-pub mod uncrossed;
+mod uncrossed;
 pub mod weld;

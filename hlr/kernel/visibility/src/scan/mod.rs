@@ -27,22 +27,22 @@
 
 pub mod active_edges;
 pub mod active_spans;
-pub mod bands;
-pub mod depth_pyramid;
+mod bands;
+mod depth_pyramid;
 pub mod drawn;
 pub mod edge_table;
-pub mod exact_query;
+mod exact_query;
 pub mod invisibility;
 mod merged;
 pub mod mesh;
 pub mod own_faces;
 pub mod piercing;
 pub mod polygon_table;
-pub mod query_points;
+mod query_points;
 pub mod scene;
 mod sheets;
-pub mod single_layer;
-pub mod slant;
+mod single_layer;
+mod slant;
 mod slanted;
 pub mod stretches;
 pub mod sweep;
