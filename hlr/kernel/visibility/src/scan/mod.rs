@@ -10,7 +10,7 @@
 //!    points, by band and column)
 //! 5. `active_edges`   where drawn edges pass behind contour edges
 //! 6. `piercing`       where drawn edges pierce polygons of other groups, or of groups that pass through themselves
-//! 7. `invisibility`   the count along every drawn edge, checked at its far end
+//! 7. `invisibility`   the count along one drawn edge, checked at its far end (`counting`: along all of them)
 //! 8. `exact_query`    the slow way, polygon by polygon, for a drawn edge whose check failed
 //! 9. `own_faces`      the slow way for edges whose own faces are seen nearly edge-on: hidden only if these turn over
 //!    (`stretches`: these edges; `sheets`: the triangles of faces that go on smoothly; `touching`: outlines at which
@@ -28,6 +28,7 @@
 pub mod active_edges;
 pub mod active_spans;
 mod bands;
+mod counting;
 mod depth_pyramid;
 pub mod drawn;
 pub mod edge_table;

@@ -1,15 +1,17 @@
 //! The visibility pass as a whole: the numbered steps of `scan`; those that do not need one another run side by side.
 
+use std::ops::Range;
 use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::active_edges::crossings;
+use super::active_edges::{Crossings, crossings};
 use super::active_spans::Seeds;
+use super::counting::{Walked, alone, by_edge, gathered, walk_all};
 use super::depth_pyramid::DepthPyramid;
 use super::edge_table::EdgeTable;
 use super::exact_query::ExactQuery;
-use super::invisibility::{Event, Piece, Segment, State, walk};
+use super::invisibility::Piece;
 use super::mesh::Mesh;
 use super::own_faces::OwnFaces;
 use super::piercing::{Piercings, piercings};
@@ -109,11 +111,10 @@ pub fn visibility_by<A: Arithmetic>(
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Option<Outcome> {
     let mut clock = Clock::start();
-    let mut seconds = Seconds::default();
     // 1. facing, contours, drawn edges
     let table = PolygonTable::new::<A>(mesh);
-    let mut edges = EdgeTable::new(mesh, &table);
-    let mut counters = Counters {
+    let edges = EdgeTable::new(mesh, &table);
+    let counters = Counters {
         triangles: mesh.triangles.len() as u64,
         culled: table.culled as u64,
         contours: edges.contours.len() as u64,
@@ -122,94 +123,157 @@ pub fn visibility_by<A: Arithmetic>(
         projecting: edges.projecting as u64,
         ..Counters::default()
     };
-    seconds.tables = clock.lap();
-    if !steps.crossings && is_single_layer(mesh, &edges.contours) {
-        let exact = ExactQuery::new(mesh, &table, &[]);
-        let walked = alone::<A>(mesh, &table, &edges.drawn, &exact, stopped);
-        counters.by_culling_alone = edges.drawn.len() as u64;
-        seconds.counting = clock.lap();
-        let mut pieces = gathered(walked, &edges.hidden, &mut counters);
-        let differing = own.differing::<A>(mesh, &table, &exact, stopped);
-        (pieces, counters.freed_of_own_faces) = own.applied::<A>(mesh, &table, &exact, &differing, pieces, stopped);
-        seconds.own_faces = clock.lap();
-        return (!stopped()).then_some(Outcome { pieces, facing: table.all_facing(), counters, seconds });
-    }
-    // A body wrongly taken for convex may also pass through itself.
-    let piercing = steps.piercings || !steps.crossings;
-    // 2. edges that surely lie behind something need no search, and what groups that do would hide is hidden without them
-    let mut behind = Vec::new();
-    if steps.pyramid {
-        let pyramid = DepthPyramid::new(mesh, &table, &edges.contours);
-        counters.pyramid_parts = pyramid.groups as u64;
-        counters.hidden_by_pyramid = discard(mesh, &pyramid, &mut edges) as u64;
-        behind = pyramid.hidden;
-        edges.contours.retain(|c| !behind[mesh.edge_group[c.edge as usize] as usize]);
-        seconds.pyramid = clock.lap();
-    }
-    let (exact, slant) = (ExactQuery::new(mesh, &table, &behind), own.slant(mesh));
-    // Side by side, for each has stretches on one thread:
-    // 3. seeds: the count at both ends of every drawn edge
-    let seeds = || timed(|| Seeds::new::<A>(mesh, &table, &edges.drawn, &behind, stopped));
-    // 4. crossings and piercings: the jumps between
-    let crossed = || timed(|| crossings::<A>(mesh, &edges.drawn, &edges.contours, stopped));
-    let pierced = || {
-        timed(|| {
-            if piercing {
-                piercings::<A>(mesh, &table, slant, &edges.drawn, &behind, stopped)
-            } else {
-                Piercings::none()
-            }
-        })
+    let seconds = Seconds { tables: clock.lap(), ..Seconds::default() };
+    let mut pass = Pass { mesh, table: &table, own, stopped, clock, counters, seconds };
+    let pieces = if !steps.crossings && is_single_layer(mesh, &edges.contours) {
+        pass.of_single_layer::<A>(&edges)
+    } else {
+        // A body wrongly taken for convex may also pass through itself.
+        let piercings = steps.piercings || !steps.crossings;
+        pass.of_layers::<A>(edges, Steps { piercings, ..steps })?
     };
-    // for step 7: edges whose own faces are seen edge-on and seem to hide them
-    let differing = || {
-        timed(|| {
-            let found = own.differing::<A>(mesh, &table, &exact, stopped);
-            if !found.is_empty() {
-                // All polygons are asked about these; the same tree decides the counts that fail.
-                exact.prepare();
-            }
-            found
-        })
-    };
-    let (((seeds, a), (differing, b)), ((crossed, c), (pierced, d))) =
-        rayon::join(|| rayon::join(seeds, differing), || rayon::join(crossed, pierced));
-    [seconds.seeds, seconds.own_faces, seconds.crossings, seconds.piercings] = clock.shared([a, b, c, d]);
-    if stopped() {
-        return None;
+    let Pass { counters, seconds, .. } = pass;
+    (!stopped()).then(|| Outcome { pieces, facing: table.all_facing(), counters, seconds })
+}
+
+/// The pass at work on one image, whose tables are made.
+struct Pass<'a> {
+    mesh: &'a Mesh<'a>,
+    table: &'a PolygonTable,
+    own: &'a OwnFaces<'a>,
+    stopped: &'a (dyn Fn() -> bool + Sync),
+    clock: Clock,
+    counters: Counters,
+    seconds: Seconds,
+}
+
+/// What is found side by side, for each of these has stretches on one thread.
+struct Found<P> {
+    seeds: Seeds,
+    crossed: Crossings<P>,
+    pierced: Piercings<P>,
+    /// The edges, each as its stretches, whose own faces are seen edge-on and seem to hide them.
+    differing: Vec<Range<usize>>,
+}
+
+impl Pass<'_> {
+    /// The pieces where no polygon hides another's edge.
+    fn of_single_layer<A: Arithmetic>(&mut self, edges: &EdgeTable) -> Vec<Piece> {
+        let Pass { mesh, table, own, stopped, .. } = *self;
+        let exact = ExactQuery::new(mesh, table, &[]);
+        let walked = alone::<A>(mesh, table, &edges.drawn, &exact, stopped);
+        self.counters.by_culling_alone = edges.drawn.len() as u64;
+        self.seconds.counting = self.clock.lap();
+        let pieces = self.all_pieces(walked, edges);
+        let differing = own.differing::<A>(mesh, table, &exact, stopped);
+        let (pieces, freed) = own.applied::<A>(mesh, table, &exact, &differing, pieces, stopped);
+        self.counters.freed_of_own_faces = freed;
+        self.seconds.own_faces = self.clock.lap();
+        pieces
     }
-    // 5. count along every drawn edge; check; decide the failed ones polygon by polygon
-    let (offsets, mut events) = by_edge(edges.drawn.len(), &crossed.events, &pierced.events);
-    let walked = walk_all::<A>(mesh, &edges.drawn, &seeds, &offsets, &mut events, &exact, stopped);
-    if stopped() {
-        return None;
+
+    /// The pieces where polygons may hide edges of others; None if the work was stopped.
+    fn of_layers<A: Arithmetic>(&mut self, mut edges: EdgeTable, steps: Steps) -> Option<Vec<Piece>> {
+        let Pass { mesh, table, own, stopped, .. } = *self;
+        // 2. edges that surely lie behind something need no search, and what groups that do would hide is hidden without
+        // them
+        let behind = if steps.pyramid { self.set_aside(&mut edges) } else { Vec::new() };
+        let exact = ExactQuery::new(mesh, table, &behind);
+        let Found { seeds, crossed, pierced, mut differing } =
+            self.found::<A>(&edges, &behind, &exact, steps.piercings);
+        if stopped() {
+            return None;
+        }
+        // 5. count along every drawn edge; check; decide the failed ones polygon by polygon
+        let (offsets, mut events) = by_edge(edges.drawn.len(), &crossed.events, &pierced.events);
+        let walked = walk_all::<A>(mesh, &edges.drawn, &seeds, &offsets, &mut events, &exact, stopped);
+        if stopped() {
+            return None;
+        }
+        self.counters = Counters {
+            bands: crossed.bands as u64,
+            seeds: seeds.asked as u64,
+            crossing_tests: crossed.tests,
+            crossings: crossed.events.iter().map(|e| e.len() as u64).sum(),
+            piercing_parts: pierced.groups as u64,
+            piercing_tests: pierced.tests,
+            piercings: pierced.events.iter().map(|e| e.len() as u64).sum(),
+            ..self.counters
+        };
+        // 6. add the edges that culling and the pyramid decided
+        let mut pieces = self.all_pieces(walked, &edges);
+        self.seconds.counting = self.clock.lap();
+        // 7. correct edges that touch polygons seen at a slant, edges whose own faces are seen edge-on, and outlines at
+        // which another body touches
+        let slant = own.slant(mesh);
+        (pieces, self.counters.slanted_contacts) =
+            compared_again::<A>(&slant, &exact, &pierced.slanted, pieces, stopped);
+        differing.extend(touching(mesh, own, &exact, &pierced.sought, &pieces, stopped));
+        differing.sort_unstable_by_key(|run| run.start);
+        differing.dedup();
+        (pieces, self.counters.freed_of_own_faces) = own.applied::<A>(mesh, table, &exact, &differing, pieces, stopped);
+        self.seconds.own_faces += self.clock.lap();
+        Some(pieces)
     }
-    counters = Counters {
-        bands: crossed.bands as u64,
-        seeds: seeds.asked as u64,
-        crossing_tests: crossed.tests,
-        crossings: crossed.events.iter().map(|e| e.len() as u64).sum(),
-        piercing_parts: pierced.groups as u64,
-        piercing_tests: pierced.tests,
-        piercings: pierced.events.iter().map(|e| e.len() as u64).sum(),
-        ..counters
-    };
-    // 6. add the edges that culling and the pyramid decided
-    let mut pieces = gathered(walked, &edges.hidden, &mut counters);
-    seconds.counting = clock.lap();
-    // 7. correct edges that touch polygons seen at a slant, edges whose own faces are seen edge-on, and outlines at which
-    // another body touches
-    (pieces, counters.slanted_contacts) = compared_again::<A>(&slant, &exact, &pierced.slanted, pieces, stopped);
-    let mut differing = differing;
-    differing.extend(touching(mesh, own, &exact, &pierced.sought, &pieces, stopped));
-    differing.sort_unstable_by_key(|run| run.start);
-    differing.dedup();
-    (pieces, counters.freed_of_own_faces) = own.applied::<A>(mesh, &table, &exact, &differing, pieces, stopped);
-    seconds.own_faces += clock.lap();
-    if stopped() {
-        return None;
+
+    /// Takes out the edges that surely lie behind something, and the contours of groups that do. Returns per group
+    /// whether it does.
+    fn set_aside(&mut self, edges: &mut EdgeTable) -> Vec<bool> {
+        let pyramid = DepthPyramid::new(self.mesh, self.table, &edges.contours);
+        self.counters.pyramid_parts = pyramid.groups as u64;
+        self.counters.hidden_by_pyramid = discard(self.mesh, &pyramid, edges) as u64;
+        let behind = pyramid.hidden;
+        edges.contours.retain(|c| !behind[self.mesh.edge_group[c.edge as usize] as usize]);
+        self.seconds.pyramid = self.clock.lap();
+        behind
     }
-    Some(Outcome { pieces, facing: table.all_facing(), counters, seconds })
+
+    /// The pieces that were walked, and those of edges that culling and the pyramid decided.
+    fn all_pieces(&mut self, walked: Vec<Walked>, edges: &EdgeTable) -> Vec<Piece> {
+        let all = gathered(walked, &edges.hidden);
+        self.counters.failed_checks = all.failed;
+        self.counters.contradictions = all.contradictions;
+        all.pieces
+    }
+
+    fn found<A: Arithmetic>(
+        &mut self,
+        edges: &EdgeTable,
+        behind: &[bool],
+        exact: &ExactQuery,
+        piercing: bool,
+    ) -> Found<A::Parameter> {
+        let Pass { mesh, table, own, stopped, .. } = *self;
+        // 3. seeds: the count at both ends of every drawn edge
+        let seeds = || timed(|| Seeds::new::<A>(mesh, table, &edges.drawn, behind, stopped));
+        // 4. crossings and piercings: the jumps between
+        let crossed = || timed(|| crossings::<A>(mesh, &edges.drawn, &edges.contours, stopped));
+        let pierced = || {
+            timed(|| {
+                if piercing {
+                    piercings::<A>(mesh, table, own.slant(mesh), &edges.drawn, behind, stopped)
+                } else {
+                    Piercings::none()
+                }
+            })
+        };
+        // for step 7
+        let differing = || {
+            timed(|| {
+                let found = own.differing::<A>(mesh, table, exact, stopped);
+                if !found.is_empty() {
+                    // All polygons are asked about these; the same tree decides the counts that fail.
+                    exact.prepare();
+                }
+                found
+            })
+        };
+        let (((seeds, a), (differing, b)), ((crossed, c), (pierced, d))) =
+            rayon::join(|| rayon::join(seeds, differing), || rayon::join(crossed, pierced));
+        let seconds = &mut self.seconds;
+        [seconds.seeds, seconds.own_faces, seconds.crossings, seconds.piercings] = self.clock.shared([a, b, c, d]);
+        Found { seeds, crossed, pierced, differing }
+    }
 }
 
 struct Clock(Instant);
@@ -260,139 +324,4 @@ fn discard(mesh: &Mesh, pyramid: &DepthPyramid, edges: &mut EdgeTable) -> usize 
     edges.hidden.extend(&gone);
     edges.hidden.sort_unstable();
     gone.len()
-}
-
-/// The pieces of a single layer, in which no polygon hides another's edge. Edges without polygons, or whose polygons
-/// are all turned away or edge-on, are tested one by one.
-fn alone<A: Arithmetic>(
-    mesh: &Mesh,
-    table: &PolygonTable,
-    drawn: &[u32],
-    exact: &ExactQuery,
-    stopped: &(dyn Fn() -> bool + Sync),
-) -> Vec<Walked> {
-    drawn
-        .par_chunks(512)
-        .map(|chunk| {
-            let mut out = Walked::default();
-            let mut segments = Vec::new();
-            for &edge in chunk {
-                if stopped() {
-                    return out;
-                }
-                segments.clear();
-                if mesh.incident(edge as usize).iter().any(|&t| table.counted(t as usize)) {
-                    segments.push(Segment { start: 0.0, end: 1.0, state: State::Visible });
-                } else {
-                    out.decide::<A>(exact, edge, &mut segments);
-                }
-                out.pieces.extend(segments.iter().map(|&segment| Piece { edge, segment }));
-            }
-            out
-        })
-        .collect()
-}
-
-/// All pieces, ascending by edge: those that were walked, and edges (ascending as well) hidden from end to end.
-fn gathered(walked: Vec<Walked>, hidden: &[u32], counters: &mut Counters) -> Vec<Piece> {
-    let whole = Segment { start: 0.0, end: 1.0, state: State::Hidden };
-    let mut pieces = Vec::with_capacity(hidden.len() + walked.iter().map(|w| w.pieces.len()).sum::<usize>());
-    let mut hidden = hidden.iter().peekable();
-    for chunk in walked {
-        counters.failed_checks += chunk.failed;
-        counters.contradictions += chunk.contradictions;
-        for piece in chunk.pieces {
-            while let Some(&edge) = hidden.next_if(|&&e| e < piece.edge) {
-                pieces.push(Piece { edge, segment: whole });
-            }
-            pieces.push(piece);
-        }
-    }
-    pieces.extend(hidden.map(|&edge| Piece { edge, segment: whole }));
-    pieces
-}
-
-/// Counting sort of all events by drawn edge.
-fn by_edge<P: Copy>(drawn: usize, crossed: &[Vec<Event<P>>], pierced: &[Vec<Event<P>>]) -> (Vec<u32>, Vec<Event<P>>) {
-    let all = || crossed.iter().chain(pierced).flatten();
-    let mut offsets = vec![0u32; drawn + 1];
-    for e in all() {
-        offsets[e.drawn as usize + 1] += 1;
-    }
-    for k in 0..drawn {
-        offsets[k + 1] += offsets[k];
-    }
-    let mut next = offsets.clone();
-    let total = offsets[drawn] as usize;
-    let Some(&filler) = all().next() else { return (offsets, Vec::new()) };
-    let mut sorted = vec![filler; total];
-    for e in all() {
-        let at = &mut next[e.drawn as usize];
-        sorted[*at as usize] = *e;
-        *at += 1;
-    }
-    (offsets, sorted)
-}
-
-#[derive(Default)]
-struct Walked {
-    pieces: Vec<Piece>,
-    failed: u64,
-    contradictions: u64,
-}
-
-impl Walked {
-    /// An edge by the slow test; hidden where even that contradicts itself.
-    fn decide<A: Arithmetic>(&mut self, exact: &ExactQuery, edge: u32, segments: &mut Vec<Segment>) {
-        if !exact.decide::<A>(edge as usize, segments) {
-            self.contradictions += 1;
-            segments.push(Segment { start: 0.0, end: 1.0, state: State::Hidden });
-        }
-    }
-}
-
-fn walk_all<A: Arithmetic>(
-    mesh: &Mesh,
-    drawn: &[u32],
-    seeds: &Seeds,
-    offsets: &[u32],
-    events: &mut [Event<A::Parameter>],
-    exact: &ExactQuery,
-    stopped: &(dyn Fn() -> bool + Sync),
-) -> Vec<Walked> {
-    const CHUNK: usize = 512;
-    // Each chunk owns its run of events: split the one array along the chunk borders.
-    let mut runs: Vec<&mut [Event<A::Parameter>]> = Vec::new();
-    let mut rest = events;
-    for first in (0..drawn.len()).step_by(CHUNK) {
-        let last = (first + CHUNK).min(drawn.len());
-        let (run, tail) = rest.split_at_mut((offsets[last] - offsets[first]) as usize);
-        runs.push(run);
-        rest = tail;
-    }
-    runs.into_par_iter()
-        .enumerate()
-        .map(|(chunk, run)| {
-            let mut out = Walked::default();
-            if stopped() {
-                return out;
-            }
-            let first = chunk * CHUNK;
-            let base = offsets[first];
-            let mut segments = Vec::new();
-            for i in first..(first + CHUNK).min(drawn.len()) {
-                let edge = drawn[i];
-                let group = mesh.edge_group[edge as usize];
-                let [a, b] = mesh.edges[edge as usize];
-                let own = &mut run[(offsets[i] - base) as usize..(offsets[i + 1] - base) as usize];
-                let (start, end) = (seeds.at::<A>(mesh, group, a, b), seeds.at::<A>(mesh, group, b, a));
-                if !walk(start, own, end, &mut segments) {
-                    out.failed += 1;
-                    out.decide::<A>(exact, edge, &mut segments);
-                }
-                out.pieces.extend(segments.iter().map(|&segment| Piece { edge, segment }));
-            }
-            out
-        })
-        .collect()
 }
