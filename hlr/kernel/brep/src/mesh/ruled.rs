@@ -75,8 +75,11 @@ fn upright(
         let edges = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
         edges.fold(0.0f64, |most, [a, b]| if a < b { most.max(error(a, b)) } else { most })
     };
-    // Both new triangles begin with the new edge.
-    without_needles(&mut triangles, slim_in_plane(&outline.uv), |[[a, b, _], _]| error(a, b) <= deflection);
+    // The parameters of a spline are no lengths: its needles are looked for in space, when the mesh is done.
+    if !matches!(surface, Surface::Spline(_)) {
+        // Both new triangles begin with the new edge.
+        without_needles(&mut triangles, slim_in_plane(&outline.uv), |[[a, b, _], _]| error(a, b) <= deflection);
+    }
     let mut most = worst(&triangles);
     if most > deflection && flip(&outline.uv, &mut triangles, &error, deflection) {
         most = worst(&triangles);
