@@ -35,6 +35,37 @@ def test_folders_that_all_hold_one_another_are_followed_once(tmp_path, monkeypat
     assert not [text for text in texts(source) if "more than" in text]
 
 
+@pytest.mark.parametrize("linked", [False, True])
+def test_parts_that_all_hold_one_another_are_followed_once(tmp_path, linked):
+    names = [f"P{i}" for i in range(40)]
+    objects = {"Box": BOX}
+    for name in names:
+        others = [other for other in names if other != name]
+        if linked:
+            objects |= {f"{name}-{other}": item("App::Link", LinkedObject=xlink(other)) for other in others}
+            others = [f"{name}-{other}" for other in others]
+        objects[name] = item("App::Part", Group=links("Box", *others))
+    source = opened(tmp_path, objects | {"Top": item("App::Part", Group=links("P0"))})
+    of_top = [name for name in source.names() if name.startswith("Top/")]
+    assert of_top[:2] == ["Top/P0/Box", f"Top/P0/{'P0-P1' if linked else 'P1'}/Box"] and len(of_top) == 40
+    assert any("leads back to itself and was left out" in text for text in texts(source))
+    assert not [text for text in texts(source) if "more than" in text]
+
+
+def test_two_links_of_a_part_to_another_show_it_each(tmp_path):
+    objects = {
+        "Box": BOX,
+        "Inner": item("App::Part", Group=links("Box")),
+        "One": item("App::Link", LinkedObject=xlink("Inner")),
+        "Two": item("App::Link", LinkedObject=xlink("Inner"), Placement=placement(0, 50, 0)),
+        "Part": item("App::Part", Group=links("One", "Two", "Back")),
+        "Back": item("App::Link", LinkedObject=xlink("Part")),
+    }
+    source = opened(tmp_path, objects)
+    assert source.names() == ["Inner/Box", "Part/One/Box", "Part/Two/Box"]
+    assert texts(source) == ['"Back" leads back to itself and was left out.']
+
+
 def test_ways_without_number_have_an_end(tmp_path, monkeypatch):
     monkeypatch.setattr(tree, "MAX_VISITS", 500)
     objects = {"Box": BOX, "P30": item("App::Part")}

@@ -15,6 +15,7 @@ from hlr.source.cad.parts import Leaf
 from hlr.source.freecad.colors import Look, look_of, look_of_link
 from hlr.source.freecad.document import Document, Object
 from hlr.source.freecad.properties import DamagedError, Properties
+from hlr.source.freecad.rings import rings
 from hlr.source.freecad.shapes import Shapes
 from hlr.source.transforms import IDENTITY, MatrixRows, compose
 
@@ -25,8 +26,8 @@ MAX_LEAVES = 200_000
 """Instances of shapes in one document: arrays of arrays have no other end."""
 
 MAX_VISITS = 1_000_000
-"""Objects that are followed in one document, each as often as groups and links lead to it. Groups that hold one
-another have no other end, for almost any number of ways leads through them."""
+"""Objects that are followed in one document, each as often as groups and links lead to it: almost any number of ways
+may lead through a few of them."""
 
 _MOST_NAMED = 5
 """Objects that one note names."""
@@ -48,6 +49,8 @@ class _Context:
     label   a label that takes the place of its own
     path    the way on to the one object within it that a link asks for; empty: all that is in it
     beside  the names of the objects that were met in the group around it that places them, and in its folders
+    ring    the number of the ring that it is in: objects that hold one another
+    met     the names of the objects of that ring which were met since the way came into it: each is followed once
     """
 
     place: MatrixRows = IDENTITY
@@ -58,6 +61,8 @@ class _Context:
     label: str = ""
     path: tuple[str, ...] = ()
     beside: set[str] = field(default_factory=set)
+    ring: int = -1
+    met: set[str] = field(default_factory=set)
 
 
 class Tree:
@@ -81,6 +86,7 @@ class Tree:
         self._hidden = hidden
         self._made_of = set(_ingredients(document))
         self._group: dict[str, list[str]] = {}
+        self._rings = rings(document.objects, lambda name: _leads_to(document.objects[name]))
         parents = {name: thing for thing in document.objects.values() for name in _members(thing)}
         if only is None:
             for thing in document.objects.values():
@@ -101,7 +107,8 @@ class Tree:
 
     def _visit(self, thing: Object, context: _Context) -> None:
         label = context.label or thing.label
-        if thing.name in context.above:
+        ring = self._rings[thing.name]
+        if thing.name in context.above or (ring == context.ring and thing.name in context.met):
             self._leave_out(f'"{label}" leads back to itself and was left out.')
             return
         if len(context.above) >= MAX_DEPTH:
@@ -113,6 +120,9 @@ class Tree:
         inner = replace(
             context, names=(*context.names, label), above=(*context.above, thing.name), placed=True, label=""
         )
+        if ring != context.ring:
+            inner = replace(inner, ring=ring, met=set())
+        inner.met.add(thing.name)
         if _is_link(thing):
             look = context.look or self._look(look_of_link, thing, "/".join(inner.names))
             self._link(thing, replace(inner, place=_own_place(thing, context), look=look))
@@ -325,6 +335,13 @@ def _holds_shapes(thing: Object) -> bool:
 def _members(thing: Object) -> list[str]:
     """What is in a group, or shown as an element of a link."""
     return thing.values.links("ElementList" if _is_link(thing) else "Group")
+
+
+def _leads_to(thing: Object) -> list[str]:
+    """What is in a group, and what a link refers to."""
+    if not _is_link(thing):
+        return _members(thing)
+    return [*_members(thing), *(thing.values.link(name) for name in _TARGETS if name in thing.values)]
 
 
 def _ingredients(document: Document) -> Iterator[str]:
