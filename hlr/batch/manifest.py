@@ -83,7 +83,7 @@ def find(folder: Path) -> Path | None:
     project = folder / PROJECT
     if os.path.isfile(project):
         try:
-            tools = parsed(project.read_text("utf-8")).get("tool")
+            tools = parsed(project.read_text("utf-8-sig")).get("tool")
             if isinstance(tools, dict) and "hlr" in tools:
                 return project
         except (OSError, ValueError, RecursionError):  # another program's file, which that one complains about
@@ -99,11 +99,13 @@ def read(file: Path, **given: Any) -> Manifest:
     try:
         if file.stat().st_size > _LARGEST:
             raise OptionError(f"{file} is no manifest: it is larger than {_LARGEST / 1e6:g} MB")
-        text = file.read_text("utf-8")
+        text = file.read_text("utf-8-sig")
         found = parsed(text)
     except OSError as error:
         raise OptionError(f"{file} cannot be read: {(error.strerror or str(error)).lower()}") from None
-    except (ValueError, RecursionError) as error:  # TOMLDecodeError says the line, UnicodeDecodeError the byte
+    except UnicodeDecodeError:
+        raise OptionError(f"{file} is no text in UTF-8: save it as UTF-8") from None
+    except (ValueError, RecursionError) as error:  # TOMLDecodeError says the line
         raise OptionError(f"{file} is no TOML: {error}") from None
     prefix = _IN_PROJECT if file.name == PROJECT else ()
     for name in prefix:

@@ -165,7 +165,9 @@ def _read(path: Path) -> dict[str, Any]:
     if len(data) > LARGEST:
         raise OptionError(f"the style {path} is larger than {LARGEST // 1000} kB, which no style needs")
     try:
-        return parsed(data.decode("utf-8"))
+        return parsed(data.decode("utf-8-sig"))
+    except UnicodeDecodeError:
+        raise OptionError(f"the style {path.name} is no text in UTF-8: save it as UTF-8") from None
     except (ValueError, RecursionError) as error:
         raise OptionError(f"the style {path.name} is no TOML: {error}") from None
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import os
 from pathlib import Path
 
@@ -47,7 +48,17 @@ def check_signature(path: Path, mark: bytes, what: str) -> None:
 
 def wrong_format(path: Path, what: str, head: bytes) -> SourceError:
     """The error that a file is not of the format `what`; head: its first bytes, which say what it looks like."""
-    return SourceError(f"{path.name} is not {what}: it looks like {describe_content(head)}.")
+    seems = describe_content(head)
+    if seems.removeprefix("a text ").removeprefix("a ").removeprefix("an ") in what:
+        return SourceError(f"{path.name} is not {what} that can be read: its beginning is broken; export it again.")
+    if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        seems = "text in UTF-16; save it as UTF-8, or export it again"
+    return SourceError(f"{path.name} is not {what}: it looks like {seems}.")
+
+
+def without_mark(data: bytes) -> bytes:
+    """The content of a file in text without the byte order mark that some editors put before it."""
+    return data.removeprefix(codecs.BOM_UTF8)
 
 
 def content_of(path: Path) -> str:

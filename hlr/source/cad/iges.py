@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from hlr.drawing.notes import Note
+from hlr.errors import SourceError
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.occt_import import load_occt
 from hlr.source.cad.parts import Leaf
@@ -15,7 +16,7 @@ from hlr.source.cad.prototypes import binary_dump
 from hlr.source.cad.sewing import sewn, with_shape
 from hlr.source.cad.shapes import sub_shapes, with_location
 from hlr.source.cad.xcaf import read_document
-from hlr.source.file_checks import wrong_format
+from hlr.source.file_checks import without_mark, wrong_format
 
 
 def open_iges(path: Path) -> BrepSource:
@@ -25,6 +26,9 @@ def open_iges(path: Path) -> BrepSource:
         SourceError: not an IGES file, broken, empty, or holding nothing to draw.
     """
     head = path.open("rb").read(240)
+    if without_mark(head) != head:
+        why = "a text editor has put a byte order mark before its first line"
+        raise SourceError(f"{path.name} cannot be read as IGES: {why}; save it without one, or export it again.")
     if len(head) < 80 or head[72:73] not in b"SBC":
         raise wrong_format(path, "an IGES file (column 73 of its first line is not S)", head)
     load_occt()

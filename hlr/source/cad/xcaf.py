@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -21,6 +22,7 @@ from hlr.source.cad.parts import Leaf
 from hlr.source.cad.shapes import sub_shapes, with_location
 from hlr.source.cad.source_builder import build_source
 from hlr.source.cad.sub_shape_colors import SubShapeColors, of_solids_and_faces
+from hlr.source.file_checks import without_mark
 
 MAX_DEPTH = 200
 """Levels of an assembly that are followed: a file that refers to itself would have no end."""
@@ -59,7 +61,10 @@ def read_document(
     document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
     try:
         with silence_stdout():
-            status = reader.ReadFile(str(path))
+            if kind == "step" and (data := _marked(path)) is not None:
+                status = reader.ReadStream(str(path), io.BytesIO(data))
+            else:
+                status = reader.ReadFile(str(path))
             read = status == IFSelect_ReturnStatus.IFSelect_RetDone and reader.Transfer(document)
     except Exception as error:  # OpenCASCADE's exceptions derive from Exception alone
         raise SourceError(f"{path.name} cannot be read as {kind.upper()} ({type(error).__name__}).") from None
@@ -74,6 +79,14 @@ def read_document(
     if not tree.leaves:
         raise SourceError(f"{path.name} holds no shapes: the assembly is empty, there is nothing to draw.")
     return build_source(path.name, kind, tree.leaves, [*notes, *tree.notes])
+
+
+def _marked(path: Path) -> bytes | None:
+    """The content of a file that begins with a byte order mark, which OpenCASCADE does not take, without it."""
+    with path.open("rb") as file:
+        if without_mark(head := file.read(8)) == head:
+            return None
+    return without_mark(path.read_bytes())
 
 
 def _repaired(leaves: list[Leaf], repair: Callable[[Leaf], Leaf]) -> list[Leaf]:

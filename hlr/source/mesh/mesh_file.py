@@ -11,7 +11,7 @@ import numpy as np
 
 from hlr import _kernel
 from hlr.errors import SourceError, counted
-from hlr.source.file_checks import wrong_format
+from hlr.source.file_checks import without_mark, wrong_format
 from hlr.source.mesh.colors import FileColors
 from hlr.source.mesh.mesh_source import Instance, MeshSource
 from hlr.source.mesh.objects import node_name
@@ -28,9 +28,11 @@ def open_mesh_file(path: Path, kind: str) -> MeshSource:
     """
     with path.open("rb") as file:
         head = file.read(65536)
-    _CHECKS[kind](path, head, path.stat().st_size)
+    of_text = kind != "stl" or without_mark(head).lstrip()[:5].lower() == b"solid"
+    content = without_mark if of_text else bytes
+    _CHECKS[kind](path, content(head), path.stat().st_size)
     try:
-        points, pieces, vertex_colors, face_colors = _kernel.read_mesh(path.read_bytes(), kind)
+        points, pieces, vertex_colors, face_colors = _kernel.read_mesh(content(path.read_bytes()), kind)
     except EOFError as error:
         raise SourceError(f"{path.name} is cut short: {error}: export or download it again.") from None
     except ValueError as error:
