@@ -123,14 +123,23 @@ def _with_size(options: Options) -> Options:
         _check_page(fit)
         if page is not None:
             raise OptionError(f"`page` and `fit` both name a sheet, {page!r} and {fit!r}: give one of them")
-    elif fit is not None and (not _is_vector(fit, 2) or min(fit) < SMALLEST_FIT or max(fit) > LARGEST_FIT):
-        raise OptionError(
-            "`fit` needs a positive width and height in millimetres, such as 277x190, or a sheet such as A4, not "
-            f"{typed_value(fit, 'x')}"
-        )
+    elif fit is not None:
+        _check_fit(fit)
     if page is not None:
         _check_page(page)
     return options
+
+
+def _check_fit(fit: Any) -> None:
+    if not _is_vector(fit, 2) or min(fit) <= 0.0:
+        is_alone = isinstance(fit, tuple | list) and len(fit) == 1
+        raise OptionError(
+            "`fit` needs a positive width and height in millimetres, such as 277x190, or a sheet such as A4, not "
+            f"{repr(fit) if is_alone else typed_value(fit, 'x')}"
+        )
+    if min(fit) < SMALLEST_FIT or max(fit) > LARGEST_FIT:
+        limits = f"{typed(SMALLEST_FIT)} to {typed(LARGEST_FIT, 8)} mm"
+        raise OptionError(f"`fit` needs a width and height of {limits}, not {typed_value(fit, 'x')}")
 
 
 def _check_page(page: Any) -> None:
