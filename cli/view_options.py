@@ -71,6 +71,12 @@ WINDOW = click.option(
     help="Only this rectangle of the drawing, millimetres from its lower left corner. What lies outside still hides.",
 )
 
+CIRCLES = click.option(
+    "--circles",
+    is_flag=True,
+    help="Meshes: rims become circles where all their vertices lie on one, less than the crease angle apart.",
+)
+
 ANNOTATIONS = click.option(
     "--annotations",
     is_flag=True,

@@ -27,6 +27,7 @@ from ..view_options import (
     CAMERA,
     CARE,
     CHOICE,
+    CIRCLES,
     RUN,
     SIZE,
     TIME_LIMIT,
@@ -92,11 +93,7 @@ LINES: tuple[Callable[[Command], Command], ...] = (
 @click.option(
     "--all-pages", is_flag=True, help="FreeCAD: draw all TechDraw pages of the document, {view} in file names."
 )
-@click.option(
-    "--circles",
-    is_flag=True,
-    help="Meshes: rims become circles where all their vertices lie on one, less than the crease angle apart.",
-)
+@options(CIRCLES)
 @click.option("--details", is_flag=True, help="Draw also what is too small or too close together for the pen.")
 @options(*CARE)
 @click.option(

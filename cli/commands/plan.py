@@ -13,8 +13,9 @@ from ..guard import start
 from ..meter import meter
 from ..section_options import SECTION, names_of_drawings, with_sections
 from ..streams import result_only
+from ..style_options import STYLE, style_from
 from ..verb import Verb
-from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, TIME_LIMIT, VIEW, WINDOW, options
+from ..view_options import CAMERA, CARE, CHOICE, CIRCLES, RUN, SIZE, TIME_LIMIT, VIEW, WINDOW, options
 from .draw import LINES, request_of
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 @click.command(cls=Verb)
 @click.argument("source")
 @VIEW
-@options(*CHOICE, *LINES, *SECTION, *SIZE, WINDOW, *CARE, TIME_LIMIT, *CAMERA, *RUN)
+@options(*CHOICE, *LINES, *SECTION, *SIZE, WINDOW, CIRCLES, *CARE, TIME_LIMIT, *CAMERA, *STYLE, *RUN)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
 def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **chosen: Any) -> None:
@@ -46,7 +47,7 @@ def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **
     if names_a_page(source, page := chosen["page"]):
         raise OptionError(f"{page} is no sheet, and pages of a document have no plan: hlr draw draws them")
     views = views or ("iso",)
-    request = request_of(**chosen)
+    request = request_of(style=style_from(chosen), **chosen)
     start(source, time_limit)
     with result_only() as out:
         with meter(quiet) as progress:

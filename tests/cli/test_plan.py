@@ -30,6 +30,14 @@ def test_the_plan_for_machines(hlr_real):
     assert divide["on"] and divide["origin"] == "scene" and divide["reason"]
 
 
+def test_a_plan_takes_circles_and_styles_as_a_drawing_does(hlr_real):
+    done = hlr_real("plan", MODEL, "--circles", "--style", "dark", "--part-colors", "fills", "--dpi", "300")
+    rows = {line[:28].strip(): line for line in done.out.splitlines()}
+    assert done.code == 0 and all(" on " in rows[name] for name in ("circles of meshes", "fill"))
+    done = hlr_real("plan", MODEL, "--style", "darck")
+    assert done.code == 2 and "there is no style 'darck'" in done.err
+
+
 def test_several_views_are_named(hlr_real):
     done = hlr_real("plan", MODEL, "--view", "front", "--view", "top")
     assert done.out.startswith("front\n") and "\n\ntop\n" in done.out
