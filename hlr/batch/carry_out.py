@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections import Counter
 from collections.abc import Sequence
@@ -63,7 +64,8 @@ def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
     modules |= forgotten()
     source = Path(job.root, job.source)
     known = (job.source, *files_of(job.options, job.root).values())
-    opened = set(read.files) - {Path(job.root, name).resolve() for name in known}
+    # Links may lead to one another: `Path.resolve` raises then.
+    opened = set(read.files) - {Path(os.path.realpath(Path(job.root, name))) for name in known}
     depends = {*modules.values(), *references(source), *opened}
     return replace(
         outcome,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Protocol
@@ -45,7 +46,7 @@ def concern(done: Done, changed: set[Path]) -> bool:
     known = set()
     for job, outcome in zip(done.plan.jobs, done.outcomes, strict=True):
         files = (job.source, *job.depends, *outcome.depends, *files_of(job.options, job.root).values())
-        known |= {Path(root, file).resolve() for file in files}
+        known |= {Path(os.path.realpath(Path(root, file))) for file in files}
     return any(
         of_ending(path.suffix) is not None or path.suffix == ".toml" or path.resolve() in known for path in changed
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
 
@@ -18,7 +19,7 @@ _MOST_REFERENCES = 10_000
 
 def references(source: Path) -> list[Path]:
     """Files that a STEP file refers to, and those that these refer to. Some may not be there."""
-    found = [source.resolve()]
+    found = [Path(os.path.realpath(source))]
     for file in found:  # which grows meanwhile
         if not _is_step(file) or not file.is_file():
             continue

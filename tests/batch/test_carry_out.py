@@ -34,3 +34,14 @@ def test_a_source_that_is_not_there_is_named_from_the_folder_of_the_batch(tmp_pa
     (job,) = plan(manifest_of({"files": "sub", "views": "top"}, tmp_path), tmp_path / "out").jobs
     failure = carry_out(job).failure
     assert failure and failure.message == "sub/a.off does not exist: check the name and the folder."
+
+
+def test_links_that_lead_to_one_another_are_named(tmp_path):
+    (tmp_path / "a.off").symlink_to("b.off")
+    (tmp_path / "b.off").symlink_to("a.off")
+    jobs = plan(manifest_of({"views": "top"}, tmp_path), tmp_path / "out").jobs
+    failures = [carry_out(job).failure for job in jobs]
+    message = "{} does not exist: check the name and the folder."
+    assert [failure and failure.message for failure in failures] == [
+        message.format(name) for name in ("a.off", "b.off")
+    ]
