@@ -22,7 +22,12 @@ if TYPE_CHECKING:
 
 
 class Asked:
-    """What the command line asks for. The manifest is read again where it has changed."""
+    """What the command line asks for. The manifest is read again where it has changed.
+
+    prunes: drawings of earlier runs are removed, also where no model is left
+    """
+
+    prunes = False
 
     def __init__(
         self,
@@ -51,8 +56,14 @@ class Asked:
         return find(Path()) if plan.manifest.file is None and self._sources else None
 
     def plan(self) -> Plan:
-        """The plan of the batch, as the files are now."""
-        return self._plan(self._given)
+        """The plan of the batch, as the files are now. Without a model there may be drawings to remove.
+
+        Raises OptionError where there are none either.
+        """
+        found = self._plan(self._given)
+        if found.empty is not None and not Earlier(self, found).drawings(found).stale:
+            raise found.empty
+        return found
 
     def usual_plan(self, plan: Plan) -> Plan | None:
         """What a manifest says without the views and formats of the command line; None: that is refused.
@@ -70,7 +81,7 @@ class Asked:
 
         manifest = self._manifest(given)
         output = Path(self._output) if self._output is not None else manifest.root / manifest.output
-        return plan(manifest, Path(os.path.abspath(output)), self._strict)
+        return plan(manifest, Path(os.path.abspath(output)), self._strict, may_be_empty=self.prunes)
 
     def _manifest(self, given: Mapping[str, Any]) -> Manifest:
         from hlr.batch.manifest import find, read, without_file

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -95,6 +96,11 @@ CHANGED = 3
 @click.option("--list", "only_list", is_flag=True, help="Print the files that would be written, and draw nothing.")
 @click.option("--dry-run", is_flag=True, help="Print what would be drawn, and with --prune what would be removed.")
 @click.option("--prune", is_flag=True, help="Remove drawings of earlier runs that the batch draws no more.")
+@click.option(
+    "--no-times",
+    is_flag=True,
+    help="Leave times and memory out of the report: then each run writes the same report, byte for byte.",
+)
 @click.option("--watch", is_flag=True, help="Stay, and draw again what changes on disk. Ctrl-C ends it.")
 @NO_CACHE
 @click.option("-q", "--quiet", is_flag=True, help="Print failures only, and with --fail-on-change a change.")
@@ -123,11 +129,12 @@ def batch(
     """
     if init:
         return _init(sources)
-    names = ("watch", "baseline", "fail_on_change", "prune")
-    watch, baseline, fail_on_change, prune = (others.pop(name) for name in names)
+    names = ("watch", "baseline", "fail_on_change", "prune", "no_times")
+    watch, baseline, fail_on_change, prune, no_times = (others.pop(name) for name in names)
     if sum((watch, only_list, dry_run)) > 1:
         raise OptionError("--watch, --list and --dry-run contradict one another: give one of them")
     asked = Asked(sources, **others)
+    asked.prunes = prune
     plan, kept, digests = _prepared(asked)
     if not quiet:
         _tell(plan, asked)
@@ -147,9 +154,12 @@ def batch(
         stop = stack.enter_context(signals.tidily())
         display = stack.enter_context(progress(quiet))
         pool = _Pool(stack, jobs, address)
-        code, done = _round(plan, kept, digests, display, pool, earlier)
+        go = partial(
+            _round, kept=kept, digests=digests, display=display, pool=pool, earlier=earlier, times=not no_times
+        )
+        code, done = go(plan)
         if watch:
-            _watch(asked, done, kept, digests, display, pool, earlier, stop)
+            _watch(asked, done, digests, go, stop, quiet)
     return code
 
 
@@ -209,8 +219,13 @@ def _prepared(asked: Asked) -> tuple[Plan, Kept, Digests]:
     return plan, Kept(None if where is None else Store(where, most_bytes(), DRAWINGS), digests), digests
 
 
-def _round(plan: Plan, kept: Kept, digests: Digests, display: Lines, pool: _Pool, earlier: Earlier) -> tuple[int, Done]:
-    """Draw what has changed, write the report, and say how it went. Returns the exit code, and what was done."""
+def _round(
+    plan: Plan, *, kept: Kept, digests: Digests, display: Lines, pool: _Pool, earlier: Earlier, times: bool
+) -> tuple[int, Done]:
+    """Draw what has changed, write the report, and say how it went. Returns the exit code, and what was done.
+
+    times: the report says what each source has cost
+    """
     from hlr.batch.ci import github
     from hlr.batch.report import write
     from hlr.batch.run import run, tidy
@@ -225,7 +240,7 @@ def _round(plan: Plan, kept: Kept, digests: Digests, display: Lines, pool: _Pool
     old = found.stale
     left = remove(old, plan.output) if earlier.prunes else old
     try:
-        report = write(done, digests, os.environ, changed, found._replace(stale=left))
+        report = write(done, digests, os.environ, changed, found._replace(stale=left), times)
     except WriteError as error:
         why = str(error).rstrip(".")
         raise WriteError(f"{why}; what is drawn stays, but there is no new report ({_counts(done)})") from None
@@ -267,27 +282,25 @@ def _counts(done: Done) -> str:
 def _watch(
     asked: Asked,
     done: Done,
-    kept: Kept,
     digests: Digests,
-    display: Lines,
-    pool: _Pool,
-    earlier: Earlier,
+    go: Callable[[Plan], tuple[int, Done]],
     stop: signals.StopRequest,
+    quiet: bool,
 ) -> None:
-    """Draw again whatever changes, until a signal ends the command."""
+    """Draw again whatever changes, until a signal ends the command. go: draws what a plan says."""
     from hlr.batch.watch import changes, concern
     from hlr.errors import HlrError
 
     root, output = done.plan.manifest.root, done.plan.output
-    if not display.quiet:
+    if not quiet:
         say(f"watching {root}; Ctrl-C ends it")
-    outside = {Path(root, job.source).resolve() for job in done.plan.jobs}
+    outside = {Path(os.path.realpath(Path(root, job.source))) for job in done.plan.jobs}
     for changed in changes(root, output, outside, stop):
         if not concern(done, changed):
             continue
         digests.forget(changed)
         try:
-            _, done = _round(asked.plan(), kept, digests, display, pool, earlier)
+            _, done = go(asked.plan())
         except HlrError as error:  # a manifest in the middle of being changed
             say(f"hlr: {error}")
 

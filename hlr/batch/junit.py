@@ -12,7 +12,7 @@ def document(found: dict[str, Any]) -> bytes:
 
     cases = []
     for source in found["sources"]:
-        case = TestCase(_text(title(source)), "hlr", source["cost"]["seconds"])
+        case = TestCase(_text(title(source)), "hlr", source.get("cost", {}).get("seconds"))
         if source["error"] is not None:
             case.result = [Error(_text(source["error"]["message"]), source["error"]["kind"])]
             if source["error"].get("printed"):

@@ -35,7 +35,7 @@ def document(found: dict[str, Any]) -> bytes:
         for source in sources
         for text in dict.fromkeys(n["text"] for d in source["drawings"] for n in d["notes"] if n["warning"])
     ]
-    begun = (source for source in sources if source["cost"]["seconds"] > 0.0)
+    begun = (source for source in sources if "cost" in source and source["cost"]["seconds"] > 0.0)
     slowest = sorted(begun, key=lambda source: -source["cost"]["seconds"])[:_SLOWEST]
     parts = [
         f"# Drawings\n\n{head}\n",

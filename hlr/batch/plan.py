@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
@@ -12,6 +11,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from hlr.batch.arranged_page import FIELD, filled_in, printed_of
+from hlr.batch.default_names import stems
 from hlr.batch.discover import files_named, models_under, named, takes_parameters, without
 from hlr.batch.job import Job
 from hlr.batch.manifest import Manifest, Rule
@@ -37,6 +37,7 @@ class Plan:
     output  the folder that is written to, absolute
     silent  scripts in folders of sources that import CadQuery or build123d and show nothing: they are not drawn
     inside  models among the sources that lie in the folder of outputs: they are not drawn
+    empty   why there is nothing to draw, where that is allowed; None: there is something
     """
 
     manifest: Manifest
@@ -44,40 +45,48 @@ class Plan:
     jobs: tuple[Job, ...]
     silent: tuple[Path, ...] = ()
     inside: tuple[Path, ...] = ()
+    empty: OptionError | None = None
 
 
-def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
+def plan(manifest: Manifest, output: Path, strict: bool = False, may_be_empty: bool = False) -> Plan:
     """The jobs that a manifest asks for. strict: warnings are errors, in every job.
 
-    Raises OptionError where patterns name no file, a name of files has an unknown field, or two drawings would be
-    written to one file.
+    may_be_empty: all models may be gone. Raises OptionError where patterns name no file, a name of files has an unknown
+    field, or two drawings would be written to one file.
     """
     jobs: list[Job] = []
     silent: list[Path] = []
     inside: list[Path] = []
+    gone: list[OptionError] = []
     for rule in manifest.rules:
-        sources = _sources(manifest, rule, output, silent, inside)
+        try:
+            sources = _sources(manifest, rule, output, silent, inside)
+        except _NoModelError as error:
+            gone.append(error)
+            if may_be_empty and len(gone) == len(manifest.rules):
+                return Plan(manifest, output, (), tuple(dict.fromkeys(silent)), tuple(dict.fromkeys(inside)), gone[0])
+            continue
         if "parameters" in rule.own and not any(map(takes_parameters, sources)):
             raise manifest.error((*rule.where, "parameters"), "only scripts have parameters, and this names none")
         printed = printed_of(manifest, rule)
         depends = _depends(manifest, rule)
         if "template" in printed:
             depends = tuple(dict.fromkeys((*depends, printed["template"])))
-        stems = Counter(_stem(path) for path in set(sources))
+        stem_of = stems(sources)
         for path in sources:
             options = {**rule.options, **({"strict": True} if strict else {})}
-            alone = stems[_stem(path)] == 1
-            found = _jobs(manifest, rule, path, options, alone, printed)
+            found = _jobs(manifest, rule, path, options, stem_of[path], printed)
             jobs.extend(replace(job, depends=depends, is_shared=len(sources) > 1) for job in found)
+    if gone:
+        raise gone[0]
     _check_names(manifest, jobs, output)
     drawn = {os.path.join(job.root, job.source) for job in jobs}
     unshown = tuple(path for path in dict.fromkeys(silent) if str(path) not in drawn)
     return Plan(manifest, output, tuple(jobs), unshown, tuple(dict.fromkeys(inside)))
 
 
-def _stem(path: Path) -> str:
-    """A source without its ending, as a file system sees it that takes large and small letters for the same."""
-    return str(path.with_suffix("")).casefold()
+class _NoModelError(OptionError):
+    """Names and patterns of a rule stand for no model."""
 
 
 def _sources(manifest: Manifest, rule: Rule, output: Path, silent: list[Path], inside: list[Path]) -> list[Path]:
@@ -91,9 +100,8 @@ def _sources(manifest: Manifest, rule: Rule, output: Path, silent: list[Path], i
     for pattern in patterns:
         files = named(root, pattern, unshown)
         if not files:
-            raise manifest.error(
-                (*rule.where, "files"), f"{pattern} names no model under {root}: mend it, or leave it out"
-            )
+            why = f"{pattern} names no model under {root}: mend it, or leave it out"
+            raise _NoModelError(str(manifest.error((*rule.where, "files"), why)))
         found += files
     outside = [path for path in dict.fromkeys(found) if not path.is_relative_to(output)]
     inside += without([path for path in found if path.is_relative_to(output)], exclude, root)
@@ -108,7 +116,7 @@ def _sources(manifest: Manifest, rule: Rule, output: Path, silent: list[Path], i
             why = f"all models lie in the folder of outputs, {output}: give another one"
         elif outside:
             why = "all models are left out by exclude"
-        raise manifest.error((*rule.where, "files"), why)
+        raise _NoModelError(str(manifest.error((*rule.where, "files"), why)))
     return kept
 
 
@@ -138,19 +146,19 @@ def _depends(manifest: Manifest, rule: Rule) -> tuple[str, ...]:
 
 
 def _jobs(
-    manifest: Manifest, rule: Rule, path: Path, options: Mapping[str, Any], alone: bool, printed: Mapping[str, Any]
+    manifest: Manifest, rule: Rule, path: Path, options: Mapping[str, Any], stem: str, printed: Mapping[str, Any]
 ) -> Iterator[Job]:
     """A job for each variant of a source.
 
-    alone: no other source of the rule differs in its ending only; printed: as of `printed_of`
+    stem: what stands for {stem} in the default name; printed: as of `printed_of`
     """
     values = rule.values
     views = tuple(tuple(view) if isinstance(view, list) else view for view in _views(values["views"]))
     formats = tuple(dict.fromkeys(as_list(values["formats"])))
     root, source = str(manifest.root), Path(os.path.relpath(path, manifest.root)).as_posix()
     template = values["name"]
-    if not alone and template == KEYS["name"].default:
-        template = template.replace("{stem}", "{stem}.{ending}")
+    if template == KEYS["name"].default:
+        template = template.replace("{stem}", stem)
     base = Job(root, source, views, formats, (), options, arrange=values["arrange"])
     base = replace(base, time_limit_s=values["time_limit_s"], memory_limit_mb=values["memory_limit_mb"])
     for variant in _variants(manifest, rule) if takes_parameters(path) else [{}]:

@@ -2,7 +2,7 @@
 
 `manifest.json` has all there is to know; the others say a part of it in the form that another program reads. The web
 page, which is many files, shows it to people (`hlr.batch.page`). Rows stand in the order of the plan. Times and memory
-stand under "cost" and "seconds": nothing else differs from run to run.
+stand under "cost" and "seconds", or nowhere if they are not asked for: nothing else differs from run to run.
 """
 
 from __future__ import annotations
@@ -28,11 +28,16 @@ Document = dict[str, Any]
 
 
 def document(
-    done: Done, digests: Digests, changes: Changes | None = None, earlier: EarlierDrawings | None = None
+    done: Done,
+    digests: Digests,
+    changes: Changes | None = None,
+    earlier: EarlierDrawings | None = None,
+    times: bool = True,
 ) -> Document:
     """The report as `manifest.json` has it.
 
-    changes: since the baseline; None: there is none. earlier: drawings of earlier runs that are still there.
+    changes: since the baseline; None: there is none. earlier: drawings of earlier runs that are still there. times:
+    what each source has cost stands there, too.
     """
     from importlib.metadata import version
 
@@ -58,6 +63,11 @@ def document(
                 drawing["change"] = changes.of[next(iter(drawing["files"].values()))]
         found["counts"]["changed"] = sum(change["state"] != "unchanged" for change in changes.of.values())
         found["gone"] = list(changes.gone)
+    if not times:
+        for source in sources:
+            del source["cost"]
+            for drawing in source["drawings"]:
+                del drawing["seconds"]
     return found
 
 
@@ -67,13 +77,14 @@ def write(
     environment: Mapping[str, str],
     changes: Changes | None = None,
     earlier: EarlierDrawings | None = None,
+    times: bool = True,
 ) -> Document:
     """Write the files of the report that have changed. Returns the document.
 
-    environment: variables by which a CI service is told. changes, earlier: as of `document`. Raises WriteError where a
-    file cannot be written.
+    environment: variables by which a CI service is told. changes, earlier, times: as of `document`. Raises WriteError
+    where a file cannot be written.
     """
-    found = document(done, digests, changes, earlier)
+    found = document(done, digests, changes, earlier, times)
     contents = {}
     for name, writer in _WRITERS.items():
         content = writer(found, environment)

@@ -142,14 +142,19 @@ def test_models_that_differ_in_their_ending_only_have_files_of_their_own(tmp_pat
     assert planned(tmp_path, views="top") == {"A.stl": ["A.stl-top.svg"], "a.off": ["a.off-top.svg"]}
 
 
-def test_models_that_differ_in_large_letters_only_are_refused(tmp_path):
-    for name in ("A.off", "a.off"):
+def test_models_that_differ_in_large_letters_only_get_a_number(tmp_path):
+    for name in ("A.off", "a.off", "a-2.off"):
         tetrahedron(tmp_path / name)
-    if len(list(tmp_path.iterdir())) == 1:
+    if len(list(tmp_path.iterdir())) < 3:
         pytest.skip("this file system takes large and small letters for the same")
-    message = "A.off, top and a.off, top would both be written to a.off-top.svg, where large and small letters are the"
+    names = {"A.off": ["A-top.svg"], "a-2.off": ["a-2-top.svg"], "a.off": ["a-3-top.svg"]}
+    assert planned(tmp_path, views="top") == names
+    (tmp_path / "a.stl").touch()
+    names |= {"A.off": ["A.off-top.svg"], "a.off": ["a-3.off-top.svg"], "a.stl": ["a.stl-top.svg"]}
+    assert planned(tmp_path, views="top") == names
+    message = "A.off, top and a.off, top would both be written to a-top.svg, where large and small letters are the same"
     with pytest.raises(OptionError, match=re.escape(message)):
-        planned(tmp_path, views="top")
+        planned(tmp_path, views="top", files=["A.off", "a.off"], name="{stem}-{view}")
 
 
 @pytest.mark.parametrize(

@@ -32,6 +32,13 @@ def run(*arguments):
     return done.stderr
 
 
+def failed(*arguments):
+    line = [sys.executable, "-P", "-m", "hlr", "batch", "-j", "1", "--view", "front", *arguments]
+    done = subprocess.run(line, check=False, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 2, done.stderr
+    return done.stderr
+
+
 def report(folder):
     return json.loads((folder / "drawings/manifest.json").read_text())
 
@@ -50,6 +57,29 @@ def test_they_are_named_until_they_are_removed(folder):
     assert "1 stale drawing removed." in run("--prune") and not drawing.exists()
     assert report(folder)["stale"] == [] and (folder / "drawings/sub/c-front.svg").exists()
     assert "stale" not in run("--prune")
+
+
+@pytest.mark.slow
+def test_where_all_models_are_gone_their_drawings_can_be_removed(folder):
+    run()
+    for model in folder.rglob("*.off"):
+        model.unlink()
+    assert failed() == f"hlr: there is no model under {folder}.\n"
+    assert failed("*.off").startswith("hlr: *.off names no model")
+    assert len(list((folder / "drawings").rglob("*.svg"))) == 3
+    run("--prune", "--dry-run")
+    assert len(list((folder / "drawings").rglob("*.svg"))) == 3
+    assert "3 stale drawings removed." in run("--prune")
+    assert list((folder / "drawings").rglob("*.svg")) == [] and report(folder)["sources"] == []
+    assert failed("--prune") == f"hlr: there is no model under {folder}.\n"
+
+
+@pytest.mark.slow
+def test_one_pattern_without_a_model_is_refused_all_the_same(folder):
+    run()
+    (folder / "a.off").unlink()
+    (folder / "hlr.toml").write_text('[[source]]\nfiles = "*.off"\n[[source]]\nfiles = "sub/*.off"\n')
+    assert "*.off names no model under" in failed("--prune")
 
 
 @pytest.mark.slow

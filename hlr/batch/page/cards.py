@@ -33,7 +33,7 @@ class Card:
     change   against the baseline: "unchanged", "changed", "new"; empty without one
     picture  address of a picture; empty where no format is one
     svg      path of the SVG, seen from the folder of outputs; empty where there is none
-    seconds  that the drawing took, by the clock; 0: of an earlier run, where nobody knows
+    seconds  that the drawing took, by the clock; 0: nobody knows, as of an earlier run
     error    why there is no drawing
     details  what the viewer shows besides
     """
@@ -86,7 +86,8 @@ def address(path: str) -> str:
 def _of_source(source: dict[str, Any]) -> Iterator[Card]:
     name = title(source)
     if source["error"] is not None:
-        yield Card(_key(name), name, "", "failed", source["cost"]["seconds"], error=source["error"]["message"])
+        seconds = source.get("cost", {}).get("seconds", 0.0)
+        yield Card(_key(name), name, "", "failed", seconds, error=source["error"]["message"])
     for drawing in source["drawings"]:
         yield _of_drawing(name, drawing)
 
@@ -103,17 +104,17 @@ def _of_earlier(rows: Sequence[dict[str, str]], state: str) -> Iterator[Card]:
 
 
 def _of_drawing(name: str, drawing: dict[str, Any]) -> Card:
-    change = drawing.get("change") or {}
+    change, seconds = drawing.get("change") or {}, drawing.get("seconds", {})
     state = "warned" if any(note["warning"] for note in drawing["notes"]) else "drawn"
     card = _card(drawing["files"], name, str(drawing["view"]), state)
     return replace(
         card,
-        seconds=drawing["seconds"].get("total", 0.0),
+        seconds=seconds.get("total", 0.0),
         change=change.get("state", ""),
         details={
             **card.details,
             "notes": [[note["text"], note["warning"]] for note in drawing["notes"]],
-            "seconds": drawing["seconds"],
+            "seconds": seconds,
             "facts": _facts(drawing),
             "change": _change(change),
         },
