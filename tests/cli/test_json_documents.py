@@ -168,6 +168,8 @@ def of_batch(hlr_real, monkeypatch):
     yield read("drawings/manifest.json")
     assert hlr_real(*asked, "same.off", "-o", "drawings").code == 0
     yield read("drawings/manifest.json")
+    assert hlr_real(*asked, "same.off", "-o", "drawings", "--no-times").code == 0
+    yield read("drawings/manifest.json")
 
 
 UNSEEN = [("batches", "folder", "null"), ("batches", "sources[].sha256", "null")]
