@@ -47,6 +47,12 @@ TOUCH = 0.5
 MOST_ACROSS = 2000
 """Lines across one part; in huge drawings they lie further apart."""
 
+DIGITS = 4
+"""Of an area. The others come from rounding, and from the chords of another mesh of the same face."""
+
+SPARE = 1.0 + 1e-9
+"""Times: what rounding adds at most to a length that is compared with a limit, as of a face of 8 x 8 mm."""
+
 PAIRS = 1_000_000
 """Corners times sides that are compared at a time."""
 
@@ -89,7 +95,7 @@ def patterns_on_sheet(sections: Sequence[Mapping[str, Sequence[Floats]]], paper:
     for parts in sections:
         for name, loops in parts.items():
             low, high = _box(loops)
-            areas.setdefault(name, []).append(abs(sum(map(_area, loops))))
+            areas.setdefault(name, []).append(_rounded(abs(sum(map(_area, loops)))))
             across[name] = max(float(np.hypot(*(high - low))), across.get(name, 0.0))
     # The large faces come first: they have the usual lines.
     order = sorted(areas, key=lambda name: (-max(areas[name]), name))
@@ -130,7 +136,12 @@ def hatched(loops: Sequence[Floats], pattern: Pattern, shortest: float) -> Float
 def _usual(areas: Sequence[float], paper: float) -> int:
     """Which of SPACINGS the lines of a part have whose faces are as large as this in each section."""
     wished = min(math.sqrt(max(areas)) / LINES_A_SIDE, math.sqrt(min(areas)) / LEAST_A_SIDE, paper / PAPER_SHARE)
-    return max(sum(spacing <= wished for spacing in SPACINGS) - 1, 0)
+    return max(sum(spacing <= wished * SPARE for spacing in SPACINGS) - 1, 0)
+
+
+def _rounded(area: float) -> float:
+    """An area to DIGITS digits: those of equal faces are one number, wherever the faces lie."""
+    return float(f"{area:.{DIGITS}g}")
 
 
 def _stepped(usual: int, steps: int) -> float:
@@ -196,4 +207,4 @@ def _near(points: Floats, sides: Floats) -> Iterator[bool]:
     for k in range(0, len(points), few):
         away = points[k : k + few, None] - start
         along = np.clip((away * way).sum(axis=2) / length, 0.0, 1.0)
-        yield bool((((away - along[..., None] * way) ** 2).sum(axis=2) <= TOUCH * TOUCH).any())
+        yield bool((((away - along[..., None] * way) ** 2).sum(axis=2) <= (SPARE * TOUCH) ** 2).any())

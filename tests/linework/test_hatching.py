@@ -188,3 +188,15 @@ def test_small_parts_that_all_touch_have_lines_that_do_not_miss_them():
         wheel[f"{k:02}"] = [np.array([(0.0, 0.0), *((3.0 * np.cos(end), 3.0 * np.sin(end)) for end in ends)])]
     found = patterns_of(wheel, A4)
     assert all(len(hatched(wheel[name], pattern, 0.1)) for name, pattern in found.items())
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3, 1.1])
+@pytest.mark.parametrize("place", [(0.0, 0.0), (1234.56, -987.6), (-54321.1, 77777.7)])
+def test_rounding_does_not_choose_between_equal_parts(turn, place):
+    """Three faces of one size in a row: their names decide, and not the last bit of an area, nor that of a length."""
+    cosine, sine = np.cos(turn), np.sin(turn)
+    matrix = np.array([[cosine, -sine], [sine, cosine]])
+    # A side of 8 mm asks for exactly 1 mm from line to line, and what is half a millimetre apart just touches.
+    row = {name: [rectangle(8.5 * k, 0, 8, 8) @ matrix.T + place] for k, name in enumerate("bca")}
+    found = patterns_of(row, A4)
+    assert [(found[name].angle, found[name].spacing) for name in "abc"] == [(45.0, 1.0), (45.0, 1.0), (135.0, 1.0)]
