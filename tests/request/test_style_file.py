@@ -118,7 +118,7 @@ def test_what_is_no_style_is_refused(asked, said):
 def test_a_file_that_is_no_text_is_refused(tmp_path):
     path = tmp_path / "own.toml"
     path.write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(hlr.OptionError, match=r"own\.toml is no TOML"):
+    with pytest.raises(hlr.OptionError, match=r"own\.toml is no text in UTF-8"):
         style_of(path)
 
 

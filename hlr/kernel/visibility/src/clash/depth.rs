@@ -6,9 +6,10 @@
 //!           |                    -----+       bottom, which goes no deeper
 //! ```
 //!
-//! In meshes without B-rep the facets may be the shape itself, and bend by any angle: only their corners are known, so
-//! these decide. On B-reps the surface is followed near the crossing (`reach`): a corner far away that lies beyond the
-//! other's plane does not tell how deep the surface goes here.
+//! On B-reps the surface is followed near the crossing (`reach`): a corner far away that lies beyond the other's plane
+//! does not tell how deep the surface goes here. In meshes without B-rep the facets may be the shape itself, and bend by
+//! any angle: their corners decide. Where facets of two bodies cross at more than a small angle the surface is followed,
+//! too, for a row of corners may lie right at the plane, and triangles may be as small as the accuracy.
 
 use super::planes::{Plane, Planes};
 use super::reach::{Sheet, Vec3};
@@ -94,6 +95,8 @@ impl Bodies<'_> {
         let across = clash.triangles.map(|t| self.across(t));
         let (reach, mut level) = self.corners_beyond(clash, &across);
         let steep = clash.meeting.sine >= SLIGHT_ANGLE;
+        // A mesh that meets itself: its corners decide.
+        let followed = steep && (solid || groups[0] != groups[1]);
         // A triangle that has only a corner or a side on the other's plane does not tell which way the surfaces cross.
         let astride = level[0].min(level[1]) > CONTACT_POINT * touch;
         let apart =
@@ -110,9 +113,14 @@ impl Bodies<'_> {
         for k in 0..2 {
             if curved && apart.is_finite() {
                 level[k] = apart;
-            } else if solid {
+            } else if solid || followed {
                 let here = self.sheet.reach(&across[k].normal, clash.triangles[1 - k], middle, most);
-                level[k] = if steep && here.is_finite() { here } else { level[k].min(here) };
+                level[k] = match (solid, steep && here.is_finite()) {
+                    (true, true) => here,
+                    (true, false) => level[k].min(here),
+                    (false, true) => level[k].max(here),
+                    (false, false) => level[k],
+                };
             }
             let deep = if apart.is_finite() { apart } else { level[k] };
             // A planar face has no chord error: how far a wall goes beyond it is known, and another planar face at any
@@ -135,7 +143,7 @@ impl Bodies<'_> {
         let level = level[0].min(level[1]);
         // The surface goes on beyond a triangle that has no more than a corner on the other side, and beyond its
         // neighbours too.
-        let reach = if solid && steep { reach.max(level) } else { reach };
+        let reach = if followed { reach.max(level) } else { reach };
         Depth { touch, level, beyond, certain, reach }
     }
 
