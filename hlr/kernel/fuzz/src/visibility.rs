@@ -139,7 +139,8 @@ fn unsound(mesh: &Mesh, counted: &dyn Fn(usize) -> bool) -> Vec<bool> {
     (0..mesh.groups.len()).map(|p| mesh.groups[p].sound && own(p as i32)).collect()
 }
 
-/// An outline is drawn where the number of faces in front changes across it.
+/// An outline is drawn where the number of faces in front changes across it, unless by one of several: that may be the end
+/// of a layer.
 fn drawn(mesh: &Mesh, e: usize, counted: &dyn Fn(usize) -> bool) -> bool {
     if mesh.role[e] & DRAWN != 0 || mesh.role[e] == 0 {
         return mesh.role[e] != 0;
@@ -153,7 +154,16 @@ fn drawn(mesh: &Mesh, e: usize, counted: &dyn Fn(usize) -> bool) -> bool {
             .map_or(0, |&v| oracle::area([a, b, v].map(|v| mesh.points[v as usize])).signum());
         if counted(t as usize) { apex } else { 0 }
     };
-    mesh.incident(e).iter().map(side).sum::<i128>() != 0 || beside_strip(mesh, e) || behind_wall(mesh, e, counted)
+    ends_at(mesh.incident(e).iter().map(side)) || beside_strip(mesh, e) || behind_wall(mesh, e, counted)
+}
+
+/// sides: of each triangle at an edge on which side it lies, 1 or -1; 0 if it does not count.
+fn ends_at(sides: impl Iterator<Item = i128>) -> bool {
+    let sides: Vec<i128> = sides.filter(|&side| side != 0).collect();
+    match sides[..] {
+        [_] => true,
+        _ => sides.iter().sum::<i128>().abs() > 1,
+    }
 }
 
 /// So is the border of a wall, which is exactly edge-on, to what is turned away and not counted, unless other lines of the
@@ -175,7 +185,7 @@ fn behind_wall(mesh: &Mesh, e: usize, counted: &dyn Fn(usize) -> bool) -> bool {
         for e in (0..mesh.edges.len()).filter(|&e| mesh.incident(e).contains(&own) && ends(e)[0] != ends(e)[1]) {
             let around = mesh.incident(e);
             let sides = around.iter().map(|&t| if counted(t as usize) { facing(t) * side_of(mesh, e, t) } else { 0 });
-            if mesh.role[e] & DRAWN != 0 || (mesh.role[e] != 0 && sides.sum::<i128>() != 0) {
+            if mesh.role[e] & DRAWN != 0 || (mesh.role[e] != 0 && ends_at(sides)) {
                 lines.push(ends(e));
             }
             if let &[s, t] = around {

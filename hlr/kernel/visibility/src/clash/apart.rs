@@ -51,6 +51,12 @@ impl Section {
         (to[0] > self.to[0]).then_some(Section { triangle, side: exit.side, from: self.to, to })
     }
 
+    /// Cosine of its slope: what is apart by a height is nearer by so much, at right angles.
+    fn flatness(&self) -> f64 {
+        let [along, up] = [0, 1].map(|k| self.to[k] - self.from[k]);
+        along / along.hypot(up)
+    }
+
     fn height(&self, along: f64) -> f64 {
         let t = ((along - self.from[0]) / (self.to[0] - self.from[0])).clamp(0.0, 1.0);
         self.from[1] + t * (self.to[1] - self.from[1])
@@ -78,7 +84,7 @@ impl<'a> Side<'a> {
     fn advance(&mut self, sheet: &Sheet) {
         let Some([a, b]) = self.ahead.take() else { return };
         let here = a.to[0].min(b.to[0]);
-        let gap = a.height(here) - b.height(here);
+        let gap = (a.height(here) - b.height(here)) * a.flatness().min(b.flatness());
         if gap * self.widest < 0.0 {
             return;
         }
@@ -193,5 +199,15 @@ mod tests {
         };
         let found = apart([&arc(1.0), &arc(5.0)], [10, 10], INTERIOR);
         assert!(found > 0.0 && found < 10.0 * (1.0 - 4f64.to_radians().cos()) * 1.01, "{found}");
+    }
+    #[test]
+    fn distances_are_taken_at_right_angles() {
+        // Far from where they cross the walls are steep, and one lies high above the other.
+        let dome = |middle: f64| -> Vec<[f64; 2]> {
+            let turns = (0..41).map(|k| (4.0 * f64::from(k) - 80.0).to_radians());
+            turns.map(|turn| [middle + 10.0 * turn.sin(), 10.0 * turn.cos()]).collect()
+        };
+        let found = apart([&dome(0.0), &dome(0.3)], [20, 19], INTERIOR);
+        assert!(found > 0.2 && found < 0.31, "{found}");
     }
 }

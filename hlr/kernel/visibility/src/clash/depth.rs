@@ -9,7 +9,8 @@
 //! On B-reps the surface is followed near the crossing (`reach`): a corner far away that lies beyond the other's plane
 //! does not tell how deep the surface goes here. In meshes without B-rep the facets may be the shape itself, and bend by
 //! any angle: their corners decide. Where facets of two bodies cross at more than a small angle the surface is followed,
-//! too, for a row of corners may lie right at the plane, and triangles may be as small as the accuracy.
+//! too, for a row of corners may lie right at the plane, and triangles may be as small as the accuracy; at smaller angles
+//! where they are that small.
 
 use super::planes::{Plane, Planes};
 use super::reach::{Sheet, Vec3};
@@ -20,6 +21,9 @@ use hlr_mesh::vector::{dot, sub};
 /// Sine of an angle: two tessellations of one curved surface never cross at more, as chords turn by at most half a
 /// radian.
 pub const SLIGHT_ANGLE: f64 = 0.35;
+/// The same of an angle at which facets of one curved surface cross that is divided in two ways. Two bodies that meet at
+/// less are judged by their corners alone: their line would run to and fro between facets.
+const FACETS_ANGLE: f64 = 0.1;
 /// Planar faces are flat within this share of a triangle's size.
 const ROUNDING: f64 = 1e-9;
 
@@ -96,11 +100,16 @@ impl Bodies<'_> {
         let (reach, mut level) = self.corners_beyond(clash, &across);
         let steep = clash.meeting.sine >= SLIGHT_ANGLE;
         // A mesh that meets itself: its corners decide.
-        let followed = steep && (solid || groups[0] != groups[1]);
+        let two_bodies = groups[0] != groups[1];
+        let followed = steep && (solid || two_bodies);
         // A triangle that has only a corner or a side on the other's plane does not tell which way the surfaces cross.
         let astride = level[0].min(level[1]) > CONTACT_POINT * touch;
-        let apart =
-            if solid && !steep && astride { self.sheet.apart(clash.triangles, middle, most) } else { f64::INFINITY };
+        let come_apart = || self.sheet.apart(clash.triangles, middle, most);
+        let apart = if solid && !steep && astride { come_apart() } else { f64::INFINITY };
+        if !solid && !steep && two_bodies && self.is_fine(clash, touch) {
+            let apart = come_apart();
+            level = level.map(|corners| if apart.is_finite() { corners.max(apart) } else { corners });
+        }
         // Two planar faces in nearly one plane come apart by what their file rounded, over any length: that closes no gap
         // between lines (`level`), and only where it is more than a contact is it a line (`beyond`).
         let curved = planes.iter().any(Option::is_none);
@@ -145,6 +154,18 @@ impl Bodies<'_> {
         // neighbours too.
         let reach = if followed { reach.max(level) } else { reach };
         Depth { touch, level, beyond, certain, reach }
+    }
+
+    /// Whether a triangle is so small that its corners tell nothing, where meshes cross at a small angle: however deep the
+    /// one is sunk into the other, they lie in no more than twice the contact.
+    fn is_fine(&self, clash: &Clash, touch: f64) -> bool {
+        let longest = |t: u32| {
+            let [a, b, c] = self.sheet.triangles[t as usize].map(|v| self.sheet.points[v as usize]);
+            [sub(&b, &a), sub(&c, &b), sub(&a, &c)].iter().map(|side| dot(side, side)).fold(0.0, f64::max).sqrt()
+        };
+        let [one, other] = clash.triangles.map(longest);
+        let sine = clash.meeting.sine;
+        sine >= FACETS_ANGLE && sine * one.min(other) <= 2.0 * touch
     }
 
     /// Two measures. First: how far each triangle with its neighbours reaches beyond the other's plane on its shallower
