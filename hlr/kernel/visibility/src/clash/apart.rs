@@ -54,7 +54,7 @@ impl Section {
     /// Cosine of its slope: what is apart by a height is nearer by so much, at right angles.
     fn flatness(&self) -> f64 {
         let [along, up] = [0, 1].map(|k| self.to[k] - self.from[k]);
-        along / along.hypot(up)
+        along / (along * along + up * up).sqrt()
     }
 
     fn height(&self, along: f64) -> f64 {
