@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from contextlib import suppress
+from typing import BinaryIO, cast
 
 MOST = 4000
 """Characters that are kept."""
@@ -39,10 +41,10 @@ class ScriptOutput:
     def take(self) -> None:
         """In the child: print to this place from now on."""
         if self._file is not None:
-            for number, stream in ((1, sys.stdout), (2, sys.stderr)):
-                os.dup2(self._adding, number)
-                with suppress(AttributeError, ValueError):  # the child may be killed with a line in its hands
-                    stream.reconfigure(line_buffering=True)  # type: ignore[union-attr]
+            os.dup2(self._adding, 1)
+            os.dup2(self._adding, 2)
+            # Without a buffer, as with `python -u`: the child may be killed in the middle of a line.
+            sys.stdout, sys.stderr = _unbuffered(1), _unbuffered(2)
 
     def shorten(self) -> None:
         """In the worker: keep the end alone where much was printed."""
@@ -70,3 +72,9 @@ class ScriptOutput:
             return b""
         size = os.fstat(self._file).st_size
         return (self._end + os.pread(self._file, 4 * MOST, max(0, size - 4 * MOST)))[-4 * MOST :]
+
+
+def _unbuffered(number: int) -> io.TextIOWrapper:
+    """A stream that writes all it is given to an open file at once."""
+    raw = io.FileIO(number, "w", closefd=False)
+    return io.TextIOWrapper(cast(BinaryIO, raw), encoding="utf-8", errors="backslashreplace", write_through=True)
