@@ -96,7 +96,7 @@ def resolve(view: View, options: Options, frame: Frame, bounds: Floats) -> Camer
         name, direction, named_up = directed(view)
         if perspective is not None:
             eye, target, direction = _eye(perspective, direction, frame, bounds)
-    right, up = axes(direction, options.up or named_up)
+    right, up = axes(direction, named_up if options.up is None else options.up)
     camera = Camera(
         name,
         _to_model(frame, direction),

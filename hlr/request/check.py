@@ -91,8 +91,12 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
     if options.parameters is not None:
         _parameters(options.parameters)
     check_crease(options.crease)
-    if options.up is not None and not _is_vector(options.up, 3):
-        raise OptionError(f"up needs three finite numbers, such as 0,0,1, not {options.up!r}")
+    if options.up is not None:
+        if not _is_vector(options.up, 3):
+            raise OptionError(f"up needs three finite numbers, such as 0,0,1, not {options.up!r}")
+        if not isinstance(options.up, tuple):  # an array has no truth value, and equals nothing
+            x, y, z = options.up
+            options = replace(options, up=(float(x), float(y), float(z)))
     threads = options.threads
     if not isinstance(threads, _WHOLE) or isinstance(threads, bool) or not 0 <= int(threads) <= MOST_THREADS:
         raise OptionError(f"{threads!r} threads cannot work: give 0 for all cores, or a number up to {MOST_THREADS}")

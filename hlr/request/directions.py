@@ -49,7 +49,7 @@ def check_directions(views: Sequence[View], up: Vector | None, perspective: Pers
     if perspective is None or perspective.eye is None:
         for view in views:
             direction, named_up = _aimed(view)
-            axes(direction, up or named_up)
+            axes(direction, named_up if up is None else up)
         return
     if len(views) > 1:
         raise ViewError(f"{len(views)} views from one eye would be the same: give one view, or no eye")

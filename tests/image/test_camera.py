@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import hlr
 from hlr.errors import HlrError, OptionError, ViewError
 from hlr.image.camera import Camera, resolve
 from hlr.request.check import checked
@@ -214,3 +215,11 @@ def test_an_eye_inside_the_model_gets_the_widest_field():
 def test_an_eye_straight_above_needs_no_up(view):
     above = camera(view, perspective=Perspective(eye=(0, 0, 100)))
     assert (above.right, above.up) == ((1, 0, 0), (0, 1, 0))
+
+
+@pytest.mark.parametrize("view", ["front", (1, 1, 1)])
+def test_up_may_be_an_array(view):
+    tetrahedron = (np.vstack([np.zeros(3), np.eye(3)]), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
+    named, array = (hlr.draw(tetrahedron, view, up=up) for up in ((1, 0, 1), np.array([1.0, 0.0, 1.0])))
+    assert array.to_svg() == named.to_svg()
+    assert hlr.preview(tetrahedron, view=view, up=np.array([1.0, 0.0, 1.0])) is not None
