@@ -91,12 +91,7 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
     if options.parameters is not None:
         _parameters(options.parameters)
     check_crease(options.crease)
-    if options.up is not None:
-        if not _is_vector(options.up, 3):
-            raise OptionError(f"up needs three finite numbers, such as 0,0,1, not {options.up!r}")
-        if not isinstance(options.up, tuple):  # an array has no truth value, and equals nothing
-            x, y, z = options.up
-            options = replace(options, up=(float(x), float(y), float(z)))
+    options = _with_up(options)
     threads = options.threads
     if not isinstance(threads, _WHOLE) or isinstance(threads, bool) or not 0 <= int(threads) <= MOST_THREADS:
         raise OptionError(f"{threads!r} threads cannot work: give 0 for all cores, or a number up to {MOST_THREADS}")
@@ -165,6 +160,16 @@ def check_crease(crease: float) -> None:
     """Raises OptionError unless the crease angle is 0 to 180 degrees."""
     if not is_real(crease) or not 0.0 <= crease <= 180.0:
         raise OptionError(f"crease {typed_value(crease)} is not a crease angle: give 0 to 180 degrees")
+
+
+def _with_up(options: Options) -> Options:
+    """With `up` as a tuple: an array has no truth value, and equals nothing."""
+    up = options.up
+    if up is None:
+        return options
+    if not _is_vector(up, 3):
+        raise OptionError(f"up needs three finite numbers, such as 0,0,1, not {up!r}")
+    return options if isinstance(up, tuple) else replace(options, up=(float(up[0]), float(up[1]), float(up[2])))
 
 
 def checked_views(views: Sequence[View], options: CameraOptions) -> list[View]:
