@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
@@ -55,6 +55,8 @@ def style_of(asked: StyleLike | None) -> Style:
     if isinstance(asked, str) and asked.strip().lower() in STYLES:
         return STYLES[asked.strip().lower()]
     path = file_of(asked)
+    if path is None and _is_file(asked):
+        raise OptionError(f"the style {asked} is a file that does not end in .toml: rename it")
     if path is None:
         raise OptionError(f"there is no style {str(asked)!r}: give {_names()}, or a file that ends in .toml")
     return from_tables(_read(path), f"the style {path.name}")
@@ -64,6 +66,12 @@ def file_of(asked: str | os.PathLike[str]) -> Path | None:
     """The file that a style's name stands for; None: it is no file."""
     path = Path(asked)
     return path if path.suffix.lower() == ".toml" else None
+
+
+def _is_file(asked: str | os.PathLike[str]) -> bool:
+    with suppress(OSError, ValueError):
+        return Path(asked).is_file()
+    return False
 
 
 def from_tables(tables: Mapping[str, Any], where: str) -> Style:

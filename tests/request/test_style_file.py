@@ -115,6 +115,12 @@ def test_what_is_no_style_is_refused(asked, said):
     assert said in str(caught.value)
 
 
+def test_a_file_with_another_ending_is_told_so(tmp_path):
+    (tmp_path / "own.style").write_text("[lines]\ncap = 'butt'")
+    with pytest.raises(hlr.OptionError, match=r"own\.style is a file that does not end in \.toml: rename it"):
+        style_of(tmp_path / "own.style")
+
+
 def test_a_file_that_is_no_text_is_refused(tmp_path):
     path = tmp_path / "own.toml"
     path.write_bytes(b"\xff\xfe\x00")
