@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import pytest
 
 from hlr.errors import SourceError
@@ -51,6 +53,43 @@ def test_it_is_not_run_where_it_only_exports_what_is_there(size, tmp_path):
     block = MAIN + "    cq.exporters.export(part, 'part.step')\n"
     assert size(BOX + "part = box(1)\n" + block) == 1
     assert not (tmp_path / "part.step").exists()
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "import matplotlib.pyplot as plt\n    plt.show()",
+        "from matplotlib.pyplot import show\n    show()",
+        "window = open('ran', 'w')\n    window.show()",
+    ],
+)
+def test_it_is_not_run_where_it_shows_a_window_of_another_library(size, tmp_path, call):
+    assert size(BOX + "part = box(1)\n" + MAIN + f"    open('ran', 'w').close()\n    {call}\n") == 1
+    assert not (tmp_path / "ran").exists()
+
+
+def test_it_is_run_where_it_shows_by_a_module_of_the_project_or_of_a_package(size, tmp_path):
+    (tmp_path / "shows_of_this_test.py").write_text("from ocp_vscode import show\n")
+    for start in ("from shows_of_this_test import show", "from cadquery.vis import show", "from cadquery import vis"):
+        call = "vis.show" if start.endswith("vis") else "show"
+        assert size(BOX + f"{start}\nstock = box(1)\n{MAIN}    {call}(box(3))\n") == 3
+
+
+def test_it_is_not_run_where_the_variable_that_is_asked_for_is_there(tmp_path):
+    path = tmp_path / "model.py"
+    path.write_text(BOX + "part = box(1)\n" + MAIN + "    open('ran', 'w').close()\n    show(part)\n")
+    open_source(path, var="part")
+    assert not (tmp_path / "ran").exists()
+
+
+def test_it_finds_itself_as_the_module_main(size):
+    data = "    from dataclasses import dataclass\n    from typing import ClassVar, get_type_hints\n    @dataclass\n"
+    data += "    class Size:\n        kind: ClassVar[int] = 1\n        length: int = 3\n"
+    data += "    import __main__, pickle\n    length = pickle.loads(pickle.dumps(Size())).length\n"
+    data += "    assert get_type_hints(Size)['length'] is int and __main__.length == 3\n    show(box(length))\n"
+    before = sys.modules["__main__"]
+    assert size("from __future__ import annotations\n" + BOX + MAIN + data) == 3
+    assert sys.modules["__main__"] is before
 
 
 def test_what_it_sees_is_the_rest_of_the_script_and_its_parameters(size):

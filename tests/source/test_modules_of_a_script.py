@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import py_compile
 import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -91,3 +95,77 @@ def test_what_the_caller_has_imported_and_what_is_installed_stays(tmp_path, monk
     assert width(path) == 3
     assert sys.modules.pop("parts_of_this_test") is parts_of_this_test
     assert "cadquery.occ_impl.exporters.dxf" in sys.modules
+
+
+def test_the_caller_may_have_imported_a_module_of_another_project_under_that_name(tmp_path, monkeypatch):
+    project(tmp_path / "one", PARTS.format(3))
+    second = project(tmp_path / "two", PARTS.format(4))
+    monkeypatch.syspath_prepend(str(tmp_path / "one"))
+    import parts_of_this_test
+
+    assert width(second) == 4
+    assert sys.modules.pop("parts_of_this_test") is parts_of_this_test
+
+
+def test_folders_that_are_packages_without_a_file_of_their_own(tmp_path):
+    for name, size in (("one", 3), ("two", 4), ("one", 3)):
+        (tmp_path / name / "folder_of_this_test").mkdir(parents=True, exist_ok=True)
+        (tmp_path / name / "folder_of_this_test" / "parts.py").write_text(PARTS.format(size))
+        (tmp_path / name / "model.py").write_text("from folder_of_this_test import parts\nresult = parts.part()\n")
+        assert width(tmp_path / name / "model.py") == size
+
+
+def test_modules_that_are_bytecode_alone(tmp_path):
+    for name, size in (("one", 3), ("two", 4)):
+        path = project(tmp_path / name, PARTS.format(size))
+        parts = tmp_path / name / "parts_of_this_test.py"
+        py_compile.compile(str(parts), cfile=str(parts.with_suffix(".pyc")))
+        parts.unlink()
+        assert width(path) == size
+
+
+def test_a_module_that_changes_within_a_second_and_stays_as_long(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+    for size in (3, 4, 5):
+        path = project(tmp_path, PARTS.format(size))
+        os.utime(tmp_path / "parts_of_this_test.py", (time.time() // 1, time.time() // 1))
+        assert width(path) == size
+
+
+@pytest.mark.parametrize("attribute", ["return self", "raise ImportError(name)"])
+def test_objects_among_the_modules_that_take_any_attribute(tmp_path, attribute):
+    start = f"import sys\nclass Lazy:\n    def __getattr__(self, name):\n        {attribute}\n"
+    start += "sys.modules['lazy_of_this_test'] = Lazy()\n"
+    try:
+        assert width(project(tmp_path, PARTS.format(3), start + SCRIPT)) == 3
+    finally:
+        sys.modules.pop("lazy_of_this_test", None)
+
+
+def test_two_threads_draw_one_script_each(tmp_path):
+    wait = "import time\ntime.sleep(0.1)\n"
+    paths = [project(tmp_path / str(size), wait + PARTS.format(size), wait + SCRIPT) for size in (3, 4)]
+    before = list(sys.path), os.getcwd()
+    with ThreadPoolExecutor(2) as pool:
+        assert list(pool.map(width, paths * 3)) == [3, 4] * 3
+    assert (list(sys.path), os.getcwd()) == before
+
+
+def test_relative_imports_of_a_script_in_a_package(tmp_path):
+    folder = tmp_path / "outer_of_this_test" / "inner"
+    folder.mkdir(parents=True)
+    for each in (folder, folder.parent):
+        (each / "__init__.py").write_text("")
+    (folder / "parts.py").write_text(PARTS.format(3))
+    (folder.parent / "sizes.py").write_text("size = 2\n")
+    (folder / "model.py").write_text("from .parts import part\nfrom ..sizes import size\nresult = part()\n")
+    assert width(folder / "model.py") == 3
+    (folder.parent / "__init__.py").unlink()
+    with pytest.raises(SourceError, match="line 2: ImportError: attempted relative import beyond top-level package"):
+        width(folder / "model.py")
+
+
+def test_an_exception_whose_text_cannot_be_made_is_named(tmp_path):
+    text = "class Odd(Exception):\n    def __str__(self):\n        return 1\nraise Odd()\n"
+    with pytest.raises(SourceError, match=r"^model\.py, line 4: Odd\.$"):
+        width(project(tmp_path, "", text))

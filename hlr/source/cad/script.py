@@ -20,8 +20,8 @@ import os
 import sys
 import traceback
 from collections.abc import Mapping
-from importlib import import_module
 from pathlib import Path
+from threading import RLock
 from typing import Any
 
 from hlr.common.own_modules import forgetting_own_modules, is_installed
@@ -29,19 +29,23 @@ from hlr.drawing.notes import Note
 from hlr.errors import OptionError, SourceError
 from hlr.request.options import Parameter
 from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.child_process import found_by_children
 from hlr.source.cad.collected import is_collection, left_out_of, things_in
 from hlr.source.cad.colors import ColorOpacity
 from hlr.source.cad.main_block import main_block
 from hlr.source.cad.objects import is_shape_like, to_leaves
 from hlr.source.cad.occt_import import import_failure_message, load_occt
 from hlr.source.cad.parts import Leaf
-from hlr.source.cad.script_module import Variables, module_of
+from hlr.source.cad.script_module import Variables, as_program, module_of
 from hlr.source.cad.script_parameters import compiled
+from hlr.source.cad.script_variables import found_by_scripts, package_of
 from hlr.source.cad.source_builder import build_source
 from hlr.source.cad.viewers import Showing, Shown, stand_ins
 from hlr.tables.entry import listed
 
 _RESULT_VARIABLE = "result"
+
+_turn = RLock()
 
 _NO_COLOR: ColorOpacity = (None, 1.0)
 
@@ -58,7 +62,7 @@ def open_script(path: Path, var: str | None = None, parameters: Mapping[str, Par
     # The script runs in its own folder, where a relative path would mean another file.
     path = path.absolute()
     showing = Showing()
-    values = _run(path, showing, parameters or {})
+    values = _run(path, showing, parameters or {}, var)
     load_occt()
     chosen, why = _objects_to_draw(path, showing.shown, values, var)
     leaves: list[Leaf] = []
@@ -167,44 +171,32 @@ def _rank(thing: Any) -> int:
     return 2 if shapes else 3
 
 
-class _CadQuery:
-    """CadQuery under the names that it has in CQ-editor and CQGI without an import; imported where a script uses it."""
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(import_module("cadquery"), name)
-
-
-def _ignore(*_: Any, **__: Any) -> None: ...
+def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter], var: str | None) -> dict[str, Any]:
+    # Working folder, search path and modules are those of the whole process: one script at a time.
+    with _turn:
+        return _run_alone(path, showing, parameters, var)
 
 
-def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter]) -> dict[str, Any]:
-    values = Variables(
-        {
-            "__name__": "__cq_main__",
-            "__file__": str(path.resolve()),
-            "__builtins__": __builtins__,
-            "show_object": showing.show_object,
-            "show": showing.show,
-            "show_all": showing.show_all,
-            "build_object": showing.show_object,  # of CQGI, as it was called before
-            "describe_parameter": _ignore,  # of CQGI
-            "debug": _ignore,
-            "log": _ignore,
-            "cq": _CadQuery(),
-            "cadquery": _CadQuery(),
-            "rand_color": lambda *_, **__: {},  # of CQ-editor: no two drawings would be alike
-        }
-    )
+def _run_alone(path: Path, showing: Showing, parameters: Mapping[str, Parameter], var: str | None) -> dict[str, Any]:
+    values = Variables(found_by_scripts(path, showing))
     showing.drawable = lambda: _most_solid(values)
     folder, working_folder = path.resolve().parent, _working_folder()
     saved_path, saved_arguments = list(sys.path), sys.argv
     sys.path.insert(0, str(folder))
+    package, root = package_of(folder)
+    if package:
+        sys.path.append(str(root))
     sys.argv = [str(path)]
     try:
         os.chdir(folder)
-        with forgetting_own_modules(), stand_ins(showing), module_of(values):
+        with (
+            forgetting_own_modules(folder),
+            stand_ins(showing),
+            module_of(values),
+            found_by_children(path, parameters),
+        ):
             exec(compiled(path, parameters), values)
-            _run_main_block(path, showing, values, parameters)
+            _run_main_block(path, showing, values, parameters, var)
     except OptionError:
         raise
     except SystemExit as error:
@@ -222,18 +214,21 @@ def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter]) -> d
     return values
 
 
-def _run_main_block(path: Path, showing: Showing, values: Variables, parameters: Mapping[str, Parameter]) -> None:
+def _run_main_block(
+    path: Path, showing: Showing, values: Variables, parameters: Mapping[str, Parameter], var: str | None
+) -> None:
     """Run what stands under `if __name__ == "__main__":` where without it nothing is there to draw.
 
-    Where shapes are there, but neither shown nor called `result`, it is run if it shows something itself.
+    Where shapes are there, but neither shown nor called `result`, it is run if it shows something itself. var: the
+    variable that is to be drawn; where it is there, nothing else counts.
     """
     shapes = _shapes(values)
-    if showing.shown or _RESULT_VARIABLE in shapes:
+    if showing.shown or _RESULT_VARIABLE in shapes or var in shapes:
         return
     block = main_block(path, parameters, showing=bool(shapes))
     if block is not None:
-        values["__name__"] = "__main__"
-        exec(block, values)
+        with as_program(values):
+            exec(block, values)
 
 
 def _left_early(path: Path, code: object, values: dict[str, Any]) -> str:
@@ -261,7 +256,7 @@ def _failure_message(path: Path, error: BaseException) -> str:
     if isinstance(error, ImportError) and "libGL" in str(error):
         return f"{path.name}: {import_failure_message(error)}"
     passed = [(frame.filename, frame.lineno) for frame in traceback.extract_tb(error.__traceback__)]
-    text = " ".join(str(error).split())
+    text = _text_of(error)
     if isinstance(error, SyntaxError):
         passed.append((error.filename or str(path), error.lineno))
         text = error.msg
@@ -271,6 +266,13 @@ def _failure_message(path: Path, error: BaseException) -> str:
     if own and own[-1][0] != str(path):  # in a module that the script imports
         where += f" ({Path(own[-1][0]).name}, line {own[-1][1]})"
     return f"{path.name}{where}: {type(error).__name__}" + (f": {text}" if text else "")
+
+
+def _text_of(error: BaseException) -> str:
+    try:
+        return " ".join(str(error).split())
+    except Exception:  # the script's own class of exceptions
+        return ""
 
 
 def _is_of_a_project(file: str) -> bool:

@@ -44,12 +44,39 @@ class _Module(ModuleType):
         del self.__dict__[name]
 
 
+class _Program(_Module):
+    """The module `__main__` while a script runs as a program. Processes that it starts begin as those of hlr do."""
+
+    def __init__(self, variables: Variables, before: ModuleType | None) -> None:
+        super().__init__("__main__", variables)
+        object.__setattr__(self, "_before", before)
+
+    def __getattribute__(self, name: str) -> Any:
+        if name in ("__file__", "__spec__"):  # what multiprocessing asks for
+            return getattr(object.__getattribute__(self, "_before"), name, None)
+        return super().__getattribute__(name)
+
+
 @contextmanager
 def module_of(variables: Variables) -> Iterator[None]:
     """Within this block the script with these variables is the module that its `__name__` says."""
-    name = variables["__name__"]
+    with _in_place(_Module(variables["__name__"], variables)):
+        yield
+
+
+@contextmanager
+def as_program(variables: Variables) -> Iterator[None]:
+    """Within this block the script with these variables is the program, the module `__main__`."""
+    variables["__name__"] = "__main__"
+    with _in_place(_Program(variables, sys.modules.get("__main__"))):
+        yield
+
+
+@contextmanager
+def _in_place(module: _Module) -> Iterator[None]:
+    name = module.__name__
     before = sys.modules.get(name)
-    sys.modules[name] = _Module(name, variables)
+    sys.modules[name] = module
     try:
         yield
     finally:

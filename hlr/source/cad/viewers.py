@@ -162,7 +162,7 @@ class _StandIn(ModuleType):
         return _Nothing()
 
 
-def _is_viewer(name: str) -> bool:
+def is_viewer(name: str) -> bool:
     """A viewer's own module, or one inside it."""
     return any(name == viewer or name.startswith(f"{viewer}.") for viewer in VIEWERS)
 
@@ -175,7 +175,7 @@ class _Finder(MetaPathFinder, Loader):
 
     def find_spec(self, fullname: str, path: Any = None, target: Any = None) -> ModuleSpec | None:
         """As of MetaPathFinder."""
-        return ModuleSpec(fullname, self, is_package=True) if _is_viewer(fullname) else None
+        return ModuleSpec(fullname, self, is_package=True) if is_viewer(fullname) else None
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
         """As of Loader."""
@@ -188,14 +188,14 @@ class _Finder(MetaPathFinder, Loader):
 @contextmanager
 def stand_ins(showing: Showing) -> Iterator[None]:
     """Within this block a viewer that is imported is a stand-in, which shows to `showing`."""
-    before = {name: sys.modules.pop(name) for name in list(sys.modules) if _is_viewer(name)}
+    before = {name: sys.modules.pop(name) for name in list(sys.modules) if is_viewer(name)}
     finder = _Finder(showing.of_viewers())
     sys.meta_path.insert(0, finder)
     try:
         yield
     finally:
         sys.meta_path.remove(finder)
-        for name in [name for name in sys.modules if _is_viewer(name)]:
+        for name in [name for name in sys.modules if is_viewer(name)]:
             _forget(name, sys.modules.pop(name))
         sys.modules.update(before)
         for name, module in before.items():
