@@ -12,7 +12,8 @@ from hlr.tables.readers import of_ending
 
 _CAD_SCRIPT = re.compile(rb"^[ \t]*(?:import|from)[ \t]+(?:cadquery|build123d)\b", re.MULTILINE)
 _SHOWS = re.compile(
-    rb"^[ \t]*show(?:_object|_all)?[ \t]*\(|^result[ \t]*=|^with[ \t]+(?:\w+\.)?Build(?:Part|Sketch|Line)\b",
+    rb"^[ \t]*(?:show(?:_object|_all)?|display)[ \t]*\(|^result[ \t]*="
+    rb"|^with[ \t]+(?:\w+\.)?Build(?:Part|Sketch|Line)\b",
     re.MULTILINE,
 )
 _MARKS = frozenset("*?[")

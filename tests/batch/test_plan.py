@@ -39,12 +39,13 @@ def test_scripts_of_a_folder_are_run_only_where_they_show_a_cad_model(tmp_path):
         "setup.py": "result = 1\n",
         "built.py": "import build123d as bd\nwith bd.BuildPart() as part:\n    bd.Box(1, 1, 1)\n",
         "all.py": "from build123d import *\nbox = Box(1, 1, 1)\nshow_all()\n",
+        "cells.py": "from build123d import *\n# %%\ndisplay(Box(1, 1, 1))\n",
     }
     for name, text in texts.items():
         (tmp_path / name).write_text(text)
-    assert list(planned(tmp_path)) == ["all.py", "built.py", "part.py", "shown.py"]
+    assert list(planned(tmp_path)) == ["all.py", "built.py", "cells.py", "part.py", "shown.py"]
     named = planned(tmp_path, files=["*.py"], exclude=["setup.py", "[ab]*.py"])
-    assert list(named) == ["helper.py", "part.py", "shown.py"]
+    assert list(named) == ["cells.py", "helper.py", "part.py", "shown.py"]
 
     def silent(**found):
         return [path.name for path in plan(manifest_of(found, tmp_path), tmp_path / "drawings").silent]

@@ -138,3 +138,16 @@ def test_nothing_is_left_behind_and_a_viewer_that_is_loaded_is_not_touched(shown
     assert sys.meta_path == finders
     assert not {"jupyter_cadquery", "jupyter_cadquery.viewer", "cadquery.vis"} & sys.modules.keys()
     assert not hasattr(cadquery, "vis")
+
+
+def test_options_may_be_a_text_in_json(shown):
+    half = """'{"color": "red", "alpha": 0.5}'"""
+    red = (1.0, 0.0, 0.0, 0.5)
+    for start in ("", "from ocp_vscode import show_object\n"):
+        assert shown(start + f"show_object(ball, 'b', options={half})\n")[0] == {"b": red}
+    assert shown("show_object(ball, 'b', options='{red')\n")[0] == {"b": None}
+
+
+def test_the_last_shapes_that_a_cell_of_a_notebook_displays_are_drawn(shown):
+    looks, _ = shown("# %%\ndisplay(ball)\n# %%\ndisplay(box, ball)\ndisplay('done')\n")
+    assert len(looks) == 2

@@ -20,6 +20,7 @@ def found_by_scripts(path: Path, showing: Showing) -> dict[str, Any]:
         "show_object": showing.show_object,
         "show": showing.show,
         "show_all": showing.show_all,
+        "display": showing.display,  # of notebooks
         "build_object": showing.show_object,  # of CQGI, as it was called before
         "describe_parameter": _ignore,  # of CQGI
         "debug": _ignore,

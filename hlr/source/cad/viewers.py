@@ -7,9 +7,10 @@ nothing, whether the viewer is installed or not.
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
@@ -57,7 +58,7 @@ class Showing:
 
     def show_object(self, obj: Any, name: str | None = None, options: Any = None, *_: Any, **more: Any) -> None:
         """As of CQ-editor and cq-cli. `alpha` is transparency."""
-        self.shown.append((obj, str(name or ""), color_from_options(options if isinstance(options, dict) else more)))
+        self.shown.append((obj, str(name or ""), color_from_options(_options(options, more))))
 
     def show(self, *objects: Any, names: Any = (), colors: Any = (), alphas: Any = (), **_: Any) -> None:
         """As of viewers: any number of objects in place of earlier ones, with lists of names, colours, opacities."""
@@ -66,6 +67,14 @@ class Showing:
         for i, obj in enumerate(objects):
             name, color, alpha = (_at(given, i) for given in of_all)
             self.shown.append((obj, str(name or ""), _opaque(color, alpha)))
+
+    def display(self, *objects: Any, **_: Any) -> None:
+        """As of notebooks, where each call has a picture of its own: the last one with shapes counts."""
+        from hlr.source.cad.objects import is_shape_like
+
+        shapes = [obj for obj in objects if is_shape_like(obj)]
+        if shapes:
+            self.show(*shapes)
 
     def reset_show(self, *_: Any, **__: Any) -> None:
         """Of viewers: forget what was shown."""
@@ -93,7 +102,7 @@ class Showing:
         """As of viewers. `alpha` is opacity; clear: in place of what was shown before."""
         if clear:
             self.reset_show()
-        given = options if isinstance(options, Mapping) else more
+        given = _options(options, more)
         self.shown.append((obj, str(name or ""), _opaque(given.get("color"), given.get("alpha"))))
 
     def of_viewers(self) -> dict[str, Callable[..., Any]]:
@@ -108,6 +117,14 @@ class Showing:
             "show_clear": self.reset_show,
             "style": lambda obj, *_, **__: obj,
         }
+
+
+def _options(given: Any, more: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Options as a dict, or as the JSON text of one; more: those given by name, where there is neither."""
+    if isinstance(given, str):
+        with suppress(ValueError, RecursionError):
+            given = json.loads(given)
+    return given if isinstance(given, Mapping) else more
 
 
 def _at(given: Any, i: int) -> Any:
