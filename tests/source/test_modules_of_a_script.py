@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import py_compile
 import sys
@@ -149,6 +150,21 @@ def test_two_threads_draw_one_script_each(tmp_path):
     with ThreadPoolExecutor(2) as pool:
         assert list(pool.map(width, paths * 3)) == [3, 4] * 3
     assert (list(sys.path), os.getcwd()) == before
+
+
+@pytest.mark.skipif("fork" not in multiprocessing.get_all_start_methods(), reason="needs fork")
+def test_a_process_that_is_forked_while_another_thread_draws_draws_as_well(tmp_path):
+    wait = "import os, time\nwhile not os.path.exists('end'):\n    time.sleep(0.01)\n"
+    slow, other = project(tmp_path / "slow", PARTS.format(3), wait + SCRIPT), project(tmp_path / "one", PARTS.format(4))
+    with ThreadPoolExecutor(1) as pool:
+        drawn = pool.submit(width, slow)
+        try:
+            time.sleep(0.5)
+            with multiprocessing.get_context("fork").Pool(1) as children:
+                assert children.apply_async(width, (other,)).get(20) == 4
+        finally:
+            (tmp_path / "slow" / "end").touch()
+        assert drawn.result() == 3
 
 
 def test_relative_imports_of_a_script_in_a_package(tmp_path):

@@ -45,8 +45,6 @@ from hlr.tables.entry import listed
 
 _RESULT_VARIABLE = "result"
 
-_turn = RLock()
-
 _NO_COLOR: ColorOpacity = (None, 1.0)
 
 
@@ -171,9 +169,24 @@ def _rank(thing: Any) -> int:
     return 2 if shapes else 3
 
 
+class _Turn:
+    """Held by the thread whose script runs."""
+
+    lock = RLock()
+
+    @classmethod
+    def renew(cls) -> None:
+        """In a process that was forked the thread whose turn it was is not there, and never ends it."""
+        cls.lock = RLock()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_Turn.renew)
+
+
 def _run(path: Path, showing: Showing, parameters: Mapping[str, Parameter], var: str | None) -> dict[str, Any]:
     # Working folder, search path and modules are those of the whole process: one script at a time.
-    with _turn:
+    with _Turn.lock:
         return _run_alone(path, showing, parameters, var)
 
 
