@@ -66,9 +66,9 @@ def draw_views(
 def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, **options: Unpack[Wishes]) -> Drawing:
     """One view of a source; the keywords are the fields of `Options`.
 
-    source    the path of a file or a script; a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object; a list
-              of CAD objects, or a dict that gives them names; or a pair of arrays: vertices (n, 3) and faces (m, 3)
-              that index them
+    source    the path of a file or a script; a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object; a pair
+              of arrays: vertices (n, 3) and faces (m, 3) that index them; or a list of CAD objects or of meshes, or a
+              dict that gives them names
     view      a name such as "iso" or "front", or a direction (x, y, z) from the object toward the viewer
     progress  called with the name of each stage and the fraction done, 0 to 1
 

@@ -29,9 +29,9 @@ def open_source(
     """Open anything that can be drawn, with the reader of `hlr.tables.readers` that accepts it.
 
     Args:
-        thing: the name of a file, a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object, a list of CAD
-            objects, a dict that gives them names, or a pair (vertices (n, 3), faces (m, 3)). Whatever follows the
-            protocol `Source` is open already and stays as it is.
+        thing: the name of a file, a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object, a pair (vertices
+            (n, 3), faces (m, 3)), a list of CAD objects or of meshes, or a dict that gives them names. Whatever
+            follows the protocol `Source` is open already and stays as it is.
         var: the variable of a script to draw, instead of what it shows.
         annotations: faces of annotation, hidden or supplemental in a STEP file, count as well.
         parameters: values for variables of a script.
@@ -58,10 +58,11 @@ def open_source(
 
 def _cure(thing: object) -> str:
     """What to pass instead of an object that nothing opens."""
-    from hlr.source.cad.collected import why_not_read
     from hlr.source.cad.objects import is_shape_like
+    from hlr.source.collected import why_not_read
+    from hlr.source.mesh.open_objects import are_meshes
 
-    if (why := why_not_read(thing, is_shape_like)) is not None:
+    if (why := why_not_read(thing, (is_shape_like, are_meshes))) is not None:
         return why
     missing = list(missing_of_source(thing))
     if len(missing) <= FEW:

@@ -75,7 +75,6 @@ def _mesh_file(title: str, entry: str, needs: str = "") -> Reader:
 
 
 _MESHES = "hlr.source.mesh.mesh_file:open_mesh_file"
-_OBJECTS = "hlr.source.mesh.objects"
 _PACKED = "hlr.source.mesh.glb_3mf:open_glb_or_3mf"
 
 READERS: Table[Reader] = Table(
@@ -117,9 +116,12 @@ READERS: Table[Reader] = Table(
             brep=True,
             noun="an object",
         ),
-        Reader("a trimesh object", "mesh", f"{_OBJECTS}:open_trimesh", fits=f"{_OBJECTS}:is_trimesh"),
-        Reader("a manifold3d object", "mesh", f"{_OBJECTS}:open_manifold", fits=f"{_OBJECTS}:is_manifold"),
-        Reader("(vertices, faces)", "mesh", f"{_OBJECTS}:open_pair", fits=f"{_OBJECTS}:is_pair"),
+        Reader(
+            "a trimesh object, a manifold3d object, a list or a dict of meshes, (vertices, faces)",
+            "mesh",
+            "hlr.source.mesh.open_objects:open_meshes",
+            fits="hlr.source.mesh.open_objects:are_meshes",
+        ),
     )
 )
 """All readers, by title."""

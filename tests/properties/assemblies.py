@@ -17,7 +17,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from properties.frozen import Frozen
 
-from hlr.source.mesh.objects import open_manifold
+from hlr.source.mesh.open_objects import open_meshes
 from hlr.source.model import PartMesh
 from hlr.tables.line_classes import EdgeClass
 
@@ -147,7 +147,7 @@ def drilled(pieces: tuple[Piece, ...]) -> Frozen:
     rest = solid(pieces[0])
     for piece in pieces[1:]:
         rest -= solid(piece)
-    return Frozen(tuple(open_manifold(rest).mesh(1.0, 1.0).parts), False)
+    return Frozen(tuple(open_meshes(rest).mesh(1.0, 1.0).parts), False)
 
 
 coordinate = st.integers(0, 6)

@@ -136,7 +136,7 @@ NO_OBJECT = "of type {} cannot be drawn"
         (trimesh.Trimesh(), "no triangles"),
         (trimesh.Scene(), "no triangles"),
         (trimesh.PointCloud([[0, 0, 0]]), "no triangles"),
-        ([BOX, BOX], NO_OBJECT.format("list")),
+        ([BOX, BOX, 5], NO_OBJECT.format("list")),
         (hlr, NO_OBJECT.format("module")),
         (lambda: None, NO_OBJECT.format("function")),
     ],

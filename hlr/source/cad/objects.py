@@ -9,12 +9,13 @@ from typing import Any
 from hlr.common.types import Color
 from hlr.errors import SourceError
 from hlr.source.cad.brep_source import BrepSource
-from hlr.source.cad.collected import is_collection, is_nothing, items_of, left_out_of, renamed
 from hlr.source.cad.colors import color_of_wrapper
 from hlr.source.cad.occt_import import load_occt
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.shapes import make_compound
 from hlr.source.cad.source_builder import build_source
+from hlr.source.collected import is_made_of, left_out_of, name_under
+from hlr.source.mesh.open_objects import is_mesh
 from hlr.source.packages import package_of
 from hlr.tables.readers import what_to_pass
 
@@ -35,22 +36,19 @@ def open_object(thing: Any, name: str = "") -> BrepSource:
     return build_source(label, "object", leaves, list(left_out_of(thing)))
 
 
-def is_shape_like(thing: Any, within: tuple[int, ...] = ()) -> bool:
-    """Whether `to_leaves` accepts an object; judged by type and attributes, without importing any CAD package.
+def is_shape_like(thing: Any) -> bool:
+    """Whether `to_leaves` accepts an object; judged by type and attributes, without importing any CAD package."""
+    return is_made_of(thing, _is_object)
 
-    within: ids of the lists and dicts that it is in; one that holds itself is not accepted
-    """
+
+def _is_object(thing: Any) -> bool:
+    """Whether it is an object of a CAD package that is drawn."""
     package = package_of(thing)
     if package == "cadquery":
         return _is_instance_of(thing, "Workplane", "Shape", "Assembly", "Sketch")
     if package == "build123d":
         return _wrapped(thing) is not None or _is_instance_of(thing, "Shape", "Builder", "ShapeList")
-    if package == "OCP":
-        return _is_instance_of(thing, "TopoDS_Shape")
-    if not is_collection(thing) or id(thing) in within:
-        return False
-    items = [item for item in items_of(thing) if not is_nothing(item)]
-    return bool(items) and all(is_shape_like(item, (*within, id(thing))) for item in items)
+    return package == "OCP" and _is_instance_of(thing, "TopoDS_Shape")
 
 
 def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float = 1.0) -> list[Leaf]:
@@ -70,6 +68,10 @@ def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float 
         label = getattr(thing, "label", "")
         leaves = _build123d(thing, label or name, color, opacity)
         return _inside(label, leaves) if getattr(thing, "children", ()) else leaves
+    if is_mesh(thing):
+        raise SourceError(
+            f"A mesh ({type(thing).__name__}) is drawn apart from CAD objects: make meshes of them first."
+        )
     if isinstance(thing, Mapping):
         return [leaf for key, item in thing.items() for leaf in _of_key(str(key) or name, item, color, opacity)]
     if isinstance(thing, Iterable) and not isinstance(thing, str | bytes):
@@ -82,7 +84,9 @@ def _of_key(key: str, thing: Any, color: Color | None, opacity: float) -> list[L
     if thing is None:
         return []
     own = str(getattr(thing, "label", "") or getattr(thing, "name", "") or "") if package_of(thing) in _NAMED else ""
-    return renamed(to_leaves(thing, key, color, opacity), own, key)
+    leaves = to_leaves(thing, key, color, opacity)
+    alone = len(leaves) == 1 and not leaves[0].above
+    return [replace(leaf, name=name_under(key, leaf.name, own, alone)) for leaf in leaves]
 
 
 _NAMED = ("cadquery", "build123d")

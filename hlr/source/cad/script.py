@@ -30,7 +30,6 @@ from hlr.errors import OptionError, SourceError
 from hlr.request.options import Parameter
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.child_process import found_by_children
-from hlr.source.cad.collected import is_collection, left_out_of, things_in
 from hlr.source.cad.colors import ColorOpacity
 from hlr.source.cad.main_block import main_block
 from hlr.source.cad.objects import is_shape_like, to_leaves
@@ -41,6 +40,7 @@ from hlr.source.cad.script_parameters import compiled
 from hlr.source.cad.script_variables import found_by_scripts, package_of
 from hlr.source.cad.source_builder import build_source
 from hlr.source.cad.viewers import Showing, Shown, stand_ins
+from hlr.source.collected import is_collection, left_out_of, things_in
 from hlr.tables.entry import listed
 
 _RESULT_VARIABLE = "result"

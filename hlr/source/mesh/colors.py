@@ -25,11 +25,14 @@ class FileColors:
     triangles: Ints | None
 
 
-def mesh_appearance(part: PartMesh, mesh: Any, clean: CleanMesh) -> Appearance:
-    """How a part looks. mesh: the trimesh object or `FileColors` it comes from, or None; clean: its mesh as cleaned."""
+def mesh_appearance(part: PartMesh, mesh: Any, clean: CleanMesh, opacity: float = 1.0) -> Appearance:
+    """How a part looks. mesh: the trimesh object or `FileColors` it comes from, or None; clean: its mesh as cleaned.
+
+    opacity: of its colour where it has no material
+    """
     visual = getattr(mesh, "visual", None)
     material = getattr(visual, "material", None)
-    whole: Rgba | None = rgba(part.color, _opacity(material))
+    whole: Rgba | None = rgba(part.color, opacity if material is None else _opacity(material))
     corners = None
     # Unreadable colours are no reason to refuse a model, and trimesh raises any exception for broken tables.
     with suppress(Exception):

@@ -25,6 +25,7 @@ class Instance:
     """A placed mesh: the index of its geometry, and a (4, 4) transform.
 
     mesh: the source of its colours, a trimesh object or `FileColors`; None for plain arrays.
+    opacity: of its colour, 0 to 1, where `mesh` says nothing
     """
 
     name: str
@@ -32,6 +33,7 @@ class Instance:
     transform: Floats
     color: Color | None
     mesh: Any = None
+    opacity: float = 1.0
 
 
 class MeshSource:
@@ -44,8 +46,9 @@ class MeshSource:
         geometries: Sequence[tuple[Any, Any]],
         instances: Sequence[Instance],
         frame: Frame | None = None,
+        notes: Sequence[Note] = (),
     ) -> None:
-        """Clean each geometry (points (n, 3), triangles (m, 3)).
+        """Clean each geometry (points (n, 3), triangles (m, 3)). notes: what was left out before.
 
         Raises:
             SourceError: no triangle is left, or the model is too large to calculate with.
@@ -53,7 +56,7 @@ class MeshSource:
         self._name, self._kind = name, kind
         self.choice: Choice | None = None
         self._frame = frame if frame is not None else Frame()
-        self._notes: list[Note] = []
+        self._notes = list(notes)
         cleaned = [clean_mesh(points, triangles) for points, triangles in geometries]
         self._report(cleaned)
         self._parts: list[PartMesh] = []
@@ -168,21 +171,24 @@ class MeshSource:
                 name = part.name if part.name not in whose else unique_names([*names, part.name])[-1]
                 names.add(name)
                 whose[name] = part.name, k
-                whole = Instance(name, 0, np.eye(4), instance.color)
+                whole = Instance(name, 0, np.eye(4), instance.color, opacity=instance.opacity)
                 made = replace(_part(name, cleaned, whole), precision=max(part.precision, cleaned.precision))
                 changed._drawn.append((made, whole, cleaned))
         changed._parts = [part for part, _, _ in changed._drawn]
         return changed, whose
 
     def transparent(self) -> bool:
-        """Whether the file has colours: only then can a part be transparent."""
-        return any(instance.mesh is not None for _, instance, _ in self._drawn)
+        """Whether there are colours that may be transparent."""
+        return any(instance.mesh is not None or instance.opacity < 1.0 for _, instance, _ in self._drawn)
 
     def appearances(self) -> dict[str, Appearance]:
         """Colours of materials; where there is no material, of vertices or faces."""
         from hlr.source.mesh.colors import mesh_appearance
 
-        return {part.name: mesh_appearance(part, instance.mesh, mesh) for part, instance, mesh in self._drawn}
+        return {
+            part.name: mesh_appearance(part, instance.mesh, mesh, instance.opacity)
+            for part, instance, mesh in self._drawn
+        }
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Tessellation:
         """The triangles as they are; deflection and angle (radians) have no effect."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from hlr.errors import SourceError
 from hlr.source.mesh.mesh_source import Instance, MeshSource
 from hlr.source.model import Frame
 from hlr.source.packages import package_of
+from hlr.tables.readers import is_model
 
 MM_PER_UNIT = {
     "micron": 1e-3,
@@ -42,37 +44,50 @@ Y_UP = ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))
 
 
 def is_trimesh(thing: Any) -> bool:
-    """Whether `open_trimesh` opens it; nothing is imported."""
+    """Whether `read_trimesh` reads it; nothing is imported."""
     return package_of(thing) == "trimesh"
 
 
 def is_manifold(thing: Any) -> bool:
-    """Whether `open_manifold` opens it; nothing is imported."""
+    """Whether `read_manifold` reads it; nothing is imported."""
     return package_of(thing) == "manifold3d"
 
 
-def is_pair(thing: Any) -> bool:
-    """Whether this is a pair of number tables, without asking CAD objects to become arrays."""
-    if not isinstance(thing, tuple | list) or len(thing) != 2:
-        return False
-    return all(hasattr(item, "dtype") or (isinstance(item, list | tuple) and _is_rows(item)) for item in thing)
+@dataclass(frozen=True, slots=True)
+class Meshes:
+    """What was read of one object: geometries as `MeshSource` takes them, where they are placed, and their frame."""
+
+    geometries: list[tuple[Any, Any]]
+    instances: list[Instance]
+    frame: Frame = field(default_factory=Frame)
 
 
-def _is_rows(item: list[Any] | tuple[Any, ...]) -> bool:
-    return bool(item) and all(isinstance(row, list | tuple) or hasattr(row, "dtype") for row in item)
-
-
-def open_trimesh(thing: Any) -> MeshSource:
-    """A trimesh.Trimesh or trimesh.Scene.
+def read_trimesh(thing: Any, part: str) -> Meshes:
+    """A trimesh.Trimesh or trimesh.Scene. part: the name of what has none.
 
     Raises:
-        SourceError: it holds no triangles.
+        SourceError: it holds no triangles, only points or curves.
     """
     source = getattr(thing, "source", None)
     kind = str(getattr(source, "file_type", "") or "").lower()
     up = Y_UP if kind in ("glb", "gltf") else Frame().up
     frame = Frame(MM_PER_UNIT.get(str(getattr(thing, "units", None) or "mm").lower(), 1.0), up)
-    return from_trimesh(type(thing).__name__, "mesh", thing, frame, "part")
+    return _meshes(type(thing).__name__, thing, frame, own_name(thing) or part)
+
+
+def own_name(thing: Any) -> str:
+    """The name of a trimesh.Trimesh: what it was given, or that of its file without the ending; "": it has none."""
+    if not hasattr(thing, "faces"):
+        return ""
+    given = (getattr(thing, "metadata", None) or {}).get("name")
+    name = str(given or getattr(getattr(thing, "source", None), "file_path", None) or "")
+    if name.startswith(_MADE_UP):
+        return ""
+    return Path(name).stem if is_model(name) else name
+
+
+_MADE_UP = ("geometry_", "GLTF", "world")
+"""How names begin that trimesh makes up."""
 
 
 def from_trimesh(name: str, kind: str, thing: Any, frame: Frame, part: str) -> MeshSource:
@@ -81,11 +96,15 @@ def from_trimesh(name: str, kind: str, thing: Any, frame: Frame, part: str) -> M
     Raises:
         SourceError: it holds no triangles.
     """
+    found = _meshes(name, thing, frame, part)
+    return MeshSource(name, kind, found.geometries, found.instances, found.frame)
+
+
+def _meshes(name: str, thing: Any, frame: Frame, part: str) -> Meshes:
     if not hasattr(thing, "graph"):
         if not hasattr(thing, "faces"):
             raise SourceError(f"{name} holds no triangles (only points or curves): there is nothing to draw.")
-        whole = Instance(part, 0, np.eye(4), _color(thing), thing)
-        return MeshSource(name, kind, [_arrays(name, thing)], [whole], frame)
+        return Meshes([_arrays(name, thing)], [Instance(part, 0, np.eye(4), _color(thing), thing)], frame)
     geometries: list[tuple[Any, Any]] = []
     numbers: dict[str, int] = {}
     instances: list[Instance] = []
@@ -101,7 +120,7 @@ def from_trimesh(name: str, kind: str, thing: Any, frame: Frame, part: str) -> M
         instances.append(Instance(named, numbers[key], matrix, _color(geometry), geometry))
     if len(instances) == 1 and not instances[0].name:
         instances = [replace(instances[0], name=part)]
-    return MeshSource(name, kind, geometries, instances, frame)
+    return Meshes(geometries, instances, frame)
 
 
 def _arrays(name: str, mesh: Any) -> tuple[Any, Any]:
@@ -138,7 +157,7 @@ def node_name(node: str, key: str, part: str) -> str:
     """The name of a node; `part` where trimesh made up one."""
     for text in (key, node):
         plain = str(text)
-        if plain and not plain.startswith(("geometry_", "GLTF", "world")) and "." not in plain[-5:]:
+        if plain and not plain.startswith(_MADE_UP) and "." not in plain[-5:]:
             return plain
     return part
 
@@ -165,33 +184,27 @@ def _linear_to_srgb(value: float) -> float:
     return round(12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055, 6)
 
 
-def open_manifold(thing: Any) -> MeshSource:
+def read_manifold(thing: Any, part: str) -> Meshes:
     """A manifold3d.Manifold.
 
     Raises:
-        SourceError: it is empty, or in an error state.
+        SourceError: it is in an error state.
     """
     status = getattr(thing, "status", None)
     if status is not None and getattr(status(), "name", "NoError") != "NoError":
         raise SourceError(f"The Manifold is in the error state {status().name}: there is nothing to draw.")
     mesh = thing.to_mesh64() if hasattr(thing, "to_mesh64") else thing.to_mesh()
     points = np.asarray(mesh.vert_properties)[:, :3]
-    whole = Instance("part", 0, np.eye(4), None)
-    return MeshSource("Manifold", "mesh", [(points, np.asarray(mesh.tri_verts))], [whole])
+    return Meshes([(points, np.asarray(mesh.tri_verts))], [Instance(part, 0, np.eye(4), None)])
 
 
-def open_pair(thing: Any) -> MeshSource:
-    """(vertices, faces), as `open_arrays` takes them."""
-    vertices, faces = thing
-    return open_arrays(vertices, faces)
-
-
-def open_arrays(vertices: Any, faces: Any) -> MeshSource:
+def read_pair(thing: Any, part: str) -> Meshes:
     """Plain arrays: vertices (n, 3), faces (m, 3) or (m, 4) of vertex numbers.
 
     Raises:
-        SourceError: other shapes, or no triangles.
+        SourceError: other shapes.
     """
+    vertices, faces = thing
     try:
         given: npt.NDArray[Any] = np.asarray(vertices)
         if given.dtype.kind not in "iufbO":  # an imaginary part would be lost, and text is no coordinate
@@ -210,4 +223,4 @@ def open_arrays(vertices: Any, faces: Any) -> MeshSource:
         outside = (corners < 0) | (corners >= len(points))
         raise SourceError(f"faces name {int(outside.sum())} vertices that do not exist (there are {len(points)}).")
     triangles: Ints = corners.astype(np.int32, copy=False)
-    return MeshSource("mesh", "mesh", [(points, triangles)], [Instance("part", 0, np.eye(4), None)])
+    return Meshes([(points, triangles)], [Instance(part, 0, np.eye(4), None)])

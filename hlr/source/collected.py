@@ -1,19 +1,31 @@
-"""Collections of CAD objects in memory: lists, and dicts whose keys are the names of the parts."""
+"""Collections of CAD objects or meshes in memory: lists, and dicts whose keys are the names of the parts."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, ValuesView
+from collections.abc import Callable, Iterator, Mapping, Sequence, ValuesView
 from collections.abc import Set as AbstractSet
-from dataclasses import replace
 from typing import Any
 
 from hlr.drawing.notes import Note
-from hlr.source.cad.parts import Leaf
+from hlr.source.mesh.pair import is_pair
 
 
 def is_collection(thing: Any) -> bool:
-    """Whether it is a list, or a dict: what has an order, and can be read more than once."""
-    return isinstance(thing, list | tuple | Mapping | ValuesView)
+    """Whether it is a list, or a dict: what has an order, and can be read more than once; not a pair of arrays."""
+    return isinstance(thing, list | tuple | Mapping | ValuesView) and not is_pair(thing)
+
+
+def is_made_of(thing: Any, is_one: Callable[[Any], bool], within: tuple[int, ...] = ()) -> bool:
+    """Whether it is one of what `is_one` knows, or a list or a dict of such, among which None and empty ones may be.
+
+    within: ids of the lists and dicts that it is in; one that holds itself is not accepted
+    """
+    if is_one(thing):
+        return True
+    if not is_collection(thing) or id(thing) in within:
+        return False
+    items = [item for item in items_of(thing) if not is_nothing(item)]
+    return bool(items) and all(is_made_of(item, is_one, (*within, id(thing))) for item in items)
 
 
 def items_of(thing: Any) -> list[Any]:
@@ -53,19 +65,18 @@ def left_out_of(thing: Any, where: str = "") -> Iterator[Note]:
             yield from left_out_of(item, path)
 
 
-def renamed(leaves: list[Leaf], own: str, key: str) -> list[Leaf]:
-    """Leaves of what a dict has under a key: those of an assembly are named by their path, key/child.
+def name_under(key: str, name: str, own: str, alone: bool) -> str:
+    """The name of a part of what a dict has under a key. Parts of an assembly are named by their path, key/child.
 
-    own: the name that the object has by itself, or ""; it gives way to the key
+    own: the name that the object has by itself, or ""; it gives way to the key. alone: it has no other part
     """
-    alone = len(leaves) == 1 and not leaves[0].above
-    return [replace(leaf, name=key if alone or leaf.name in (own, key) else f"{key}/{leaf.name}") for leaf in leaves]
+    return key if alone or name in (own, key) else f"{key}/{name}"
 
 
-def why_not_read(thing: Any, is_read: Callable[[Any], bool]) -> str | None:
+def why_not_read(thing: Any, kinds: Sequence[Callable[[Any], bool]]) -> str | None:
     """What is wrong with a set, an iterator, a dict, or a list of which some is read; None: it is something else.
 
-    is_read: whether an item can be drawn
+    kinds: whether an item is of one of the kinds that can be drawn, of which a list or a dict holds one
     """
     if isinstance(thing, AbstractSet):
         return "it has no order: pass a list, or a dict of names and shapes"
@@ -73,6 +84,10 @@ def why_not_read(thing: Any, is_read: Callable[[Any], bool]) -> str | None:
         return "it can be read only once: pass a list of what it gives"
     if is_nothing(thing) and thing is not None:
         return "it holds no shapes"
+
+    def is_read(item: Any) -> bool:
+        return any(is_kind(item) for is_kind in kinds)
+
     if not isinstance(thing, Mapping) and not (is_collection(thing) and any(map(is_read, items_of(thing)))):
         return None
     return _unread(thing, is_read, (id(thing),))
@@ -80,9 +95,11 @@ def why_not_read(thing: Any, is_read: Callable[[Any], bool]) -> str | None:
 
 def _unread(thing: Any, is_read: Callable[[Any], bool], within: tuple[int, ...]) -> str:
     """What in a list or a dict, or in those inside of it, cannot be drawn. within: ids of it and of what it is in."""
-    bad = next(item for item in items_of(thing) if not is_nothing(item) and not is_read(item))
+    bad = next((item for item in items_of(thing) if not is_nothing(item) and not is_read(item)), None)
+    if bad is None:
+        return "it holds both CAD objects and meshes: draw them apart, or make meshes of the CAD objects first"
     if id(bad) in within:
         return f"{type(bad).__name__} in it holds itself"
     if is_collection(bad):
         return _unread(bad, is_read, (*within, id(bad)))
-    return f"{type(bad).__name__} in it is no CAD object, as all that it holds must be"
+    return f"{type(bad).__name__} in it is no CAD object and no mesh, as all that it holds must be"
