@@ -8,10 +8,11 @@ exists is drawn:
 1. the variable that the caller names;
 2. all objects that the script shows;
 3. the variable `result`;
-4. the solid that was assigned last, else the last face, else the last shape.
+4. the solid that was assigned last, else the last face, else the last shape or mesh.
 
-A remark in the drawing names the choice. What stands under `if __name__ == "__main__":` is run where nothing is there
-to draw without it, or where it shows something and nothing else is shown or called `result` (`main_block`).
+A remark in the drawing names the choice. Meshes are drawn where none of it is a CAD object. What stands under
+`if __name__ == "__main__":` is run where nothing is there to draw without it, or where it shows something and nothing
+else is shown or called `result` (`main_block`).
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from __future__ import annotations
 import os
 import sys
 import traceback
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from threading import RLock
 from typing import Any
@@ -34,13 +35,14 @@ from hlr.source.cad.colors import ColorOpacity
 from hlr.source.cad.main_block import main_block
 from hlr.source.cad.objects import is_shape_like, to_leaves
 from hlr.source.cad.occt_import import import_failure_message, load_occt
-from hlr.source.cad.parts import Leaf
 from hlr.source.cad.script_module import Variables, as_program, module_of
 from hlr.source.cad.script_parameters import compiled
 from hlr.source.cad.script_variables import found_by_scripts, package_of
 from hlr.source.cad.source_builder import build_source
 from hlr.source.cad.viewers import Showing, Shown, stand_ins
-from hlr.source.collected import is_collection, left_out_of, things_in
+from hlr.source.collected import is_collection, left_out_of, things_in, why_not_read
+from hlr.source.mesh.mesh_source import MeshSource
+from hlr.source.mesh.open_objects import are_meshes, hold_triangles, mesh_source, read_meshes
 from hlr.tables.entry import listed
 
 _RESULT_VARIABLE = "result"
@@ -48,8 +50,10 @@ _RESULT_VARIABLE = "result"
 _NO_COLOR: ColorOpacity = (None, 1.0)
 
 
-def open_script(path: Path, var: str | None = None, parameters: Mapping[str, Parameter] | None = None) -> BrepSource:
-    """Run a script; its parts are the objects that it shows, or the variable named `var`.
+def open_script(
+    path: Path, var: str | None = None, parameters: Mapping[str, Parameter] | None = None
+) -> BrepSource | MeshSource:
+    """Run a script; its parts are the objects that it shows, or the variable named `var`. Meshes load no OpenCASCADE.
 
     parameters: values for variables of the script, as `hlr.source.cad.script_parameters` says.
 
@@ -61,23 +65,37 @@ def open_script(path: Path, var: str | None = None, parameters: Mapping[str, Par
     path = path.absolute()
     showing = Showing()
     values = _run(path, showing, parameters or {}, var)
-    load_occt()
     chosen, why = _objects_to_draw(path, showing.shown, values, var)
-    leaves: list[Leaf] = []
+    meshes = {type(thing).__name__ for thing, _, _ in chosen if _passes(thing, are_meshes)}
+    of_meshes = bool(meshes) and not any(_passes(thing, is_shape_like) for thing, _, _ in chosen)
+    if not of_meshes:
+        load_occt()
+    read: list[Any] = []
     left_out: dict[str, SourceError] = {}
-    for thing, name, (color, opacity) in chosen:
+    for thing, name, look in chosen:
         try:
-            leaves.extend(to_leaves(thing, name or path.stem, color, opacity))
+            read.extend((read_meshes if of_meshes else to_leaves)(thing, name or path.stem, *look))
         except SourceError as error:
             left_out[type(thing).__name__] = error
-    if left_out and not leaves:
+    if left_out and not read:
         raise SourceError(f"{path.name} shows something that is no shape: {next(iter(left_out.values()))}")
-    if not leaves:
+    if not read:
         raise SourceError(_nothing_shown(path, values, [type(thing).__name__ for thing, _, _ in chosen]))
-    if left_out:
-        why += f", without what is no shape ({', '.join(left_out)})"
+    if others := [kind for kind in left_out if kind not in meshes]:
+        why += f", without what is no shape ({', '.join(others)})"
+    if len(others) < len(left_out):
+        why += (
+            f", without meshes ({', '.join(sorted(meshes & left_out.keys()))}), which are drawn apart from CAD objects"
+        )
+    if of_meshes:
+        return mesh_source(path.name, read, _remarks(path, chosen, why))
+    return build_source(path.name, "script", read, _remarks(path, chosen, why))
+
+
+def _remarks(path: Path, chosen: list[Shown], why: str) -> list[Note]:
+    """Which objects are drawn, and what in them is not."""
     missing = [note for thing, _, _ in chosen for note in left_out_of(thing)]
-    return build_source(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}."), *missing])
+    return [Note("script-shape", f"{path.name}: {why}."), *missing]
 
 
 def _nothing_shown(path: Path, values: dict[str, Any], empty: list[str]) -> str:
@@ -85,9 +103,9 @@ def _nothing_shown(path: Path, values: dict[str, Any], empty: list[str]) -> str:
     if empty:
         what = listed(list(dict.fromkeys(empty)), "and")
         return f"{path.name} shows something without a shape in it ({what}): there is nothing to draw."
-    if _RESULT_VARIABLE in values and not _is_shape(values[_RESULT_VARIABLE]):
-        kind = type(values[_RESULT_VARIABLE]).__name__
-        return f'The variable "{_RESULT_VARIABLE}" of {path.name} is no shape, but {kind}: assign a shape to it.'
+    if _RESULT_VARIABLE in values and not _is_shape(value := values[_RESULT_VARIABLE]):
+        why = why_not_read(value, (is_shape_like, are_meshes)) or "assign a shape to it"
+        return f'The variable "{_RESULT_VARIABLE}" of {path.name} is no shape, but {type(value).__name__}: {why}.'
     return f'{path.name} shows nothing: call show_object(shape) in it, or assign the shape to a variable "result".'
 
 
@@ -148,14 +166,21 @@ def _ids_in(thing: Any) -> set[int]:
 
 
 def _is_shape(value: Any) -> bool:
+    return _passes(value, is_shape_like) or _passes(value, hold_triangles)
+
+
+def _passes(value: Any, check: Callable[[Any], bool]) -> bool:
     try:
-        return is_shape_like(value)
+        return check(value)
     except Exception:  # a variable with strange attributes is no shape
         return False
 
 
 def _rank(thing: Any) -> int:
-    """0: has a solid; 1: has a face; 2: has other shapes; 3: is empty."""
+    """0: has a solid; 1: has a face; 2: has other shapes, or is a mesh; 3: is empty."""
+    if are_meshes(thing):
+        return 2
+    load_occt()
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
     from OCP.TopExp import TopExp_Explorer
 

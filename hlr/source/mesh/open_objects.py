@@ -33,6 +33,14 @@ def are_meshes(thing: Any) -> bool:
     return is_made_of(thing, is_mesh)
 
 
+def hold_triangles(thing: Any) -> bool:
+    """Whether meshes can be read and have triangles: any two arrays could be a pair of vertices and faces."""
+    try:
+        return are_meshes(thing) and any(len(faces) for each in read_meshes(thing) for _, faces in each.geometries)
+    except SourceError:
+        return False
+
+
 def open_meshes(thing: Any) -> MeshSource:
     """A mesh, a list of meshes, or a dict that gives them names. Each is a part, or as many as it has names for.
 
