@@ -24,6 +24,9 @@ ALIKE = 1e-4
 MOST_SIDES = 20_000
 """Sides of a cut face beyond which nothing asks where they cross: each is compared with all others."""
 
+PAIRS = 1_000_000
+"""Corners times sides that are compared at a time."""
+
 ROUNDING = 1e-9
 """Of the area of a cut face: what its triangles may overlap by."""
 
@@ -79,11 +82,14 @@ class OpenBody:
             new = len(self.points) + np.flatnonzero((sides == number).any(axis=1))
             new = new[np.argsort((points[new] - points[start]) @ (points[end] - points[start]))]
             # The triangle beside the side falls apart in a fan from its third corner.
-            row = beside[start, end].pop()
+            row = beside[start, end][-1]
             (apex,) = set(triangles[row]) - {start, end}
-            beside[end, apex].remove(row)
-            beside[end, apex].append(len(triangles) + len(new) - 1)
+            for side in _sides(triangles[row]):
+                beside[side].remove(row)
             fan = [[a, b, apex] for a, b in pairwise([start, *new.tolist(), end])]
+            for part, corners in zip([row, *range(len(triangles), len(triangles) + len(new))], fan, strict=True):
+                for side in _sides(corners):
+                    beside.setdefault(side, []).append(part)
             triangles[row] = fan[0]
             triangles += fan[1:]
         made = np.array(triangles, np.int32)
@@ -134,12 +140,17 @@ def _cut(points: Floats, triangles: Ints, number: npt.NDArray[np.int64], near: f
     put[np.abs(put[:, 2]) <= near, 2] = 0.0
     heights = put[found.triangles][..., 2]
     stays = np.where((heights == 0.0).all(axis=1), _areas(put, found.triangles) > 0.0, heights.sum(axis=1) < 0.0)
+    a, b, c = found.triangles.T
+    stays &= (a != b) & (b != c) & (c != a)
     open_ones = []
-    for own in one_by_one(found.triangles[stays], number[found.of][stays]):
-        ends = _open_sides(own, len(put))
-        if put[ends][..., 2].any():
+    for each in one_by_one(found.triangles[stays], number[found.of][stays]):
+        # Only its own points: of many bodies each would go through those of all others.
+        used, renumbered = np.unique(each, return_inverse=True)
+        points, own = put[used], renumbered.reshape(-1, 3).astype(np.int32)
+        ends = _open_sides(own, len(points))
+        if points[ends][..., 2].any():
             return None
-        open_ones.append(OpenBody(put, own, ends))
+        open_ones.append(OpenBody(points, own, ends))
     return open_ones
 
 
@@ -231,11 +242,14 @@ def _faces(points: Floats, loops: list[Ints]) -> list[list[Ints]]:
     return list(faces.values())
 
 
-def _is_inside(points: Floats, loop: Ints, around: Ints) -> npt.NDArray[np.bool_]:
+def _is_inside(points: Floats, loop: Ints, around: Ints) -> bool:
     """Whether most corners of a loop lie inside of another one."""
-    x, y = points[loop][:, None, :2].transpose(2, 0, 1)
     a, b = points[around][:, :2].T, points[np.roll(around, -1)][:, :2].T
-    crossed = (a[1] <= y) != (b[1] <= y)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        right = a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > x
-    return np.asarray(2 * np.count_nonzero((crossed & right).sum(axis=1) % 2) > len(loop))
+    inside, few = 0, max(1, PAIRS // len(around))
+    for first in range(0, len(loop), few):
+        x, y = points[loop[first : first + few]][:, None, :2].transpose(2, 0, 1)
+        crossed = (a[1] <= y) != (b[1] <= y)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            right = a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > x
+        inside += int(np.count_nonzero((crossed & right).sum(axis=1) % 2))
+    return 2 * inside > len(loop)
