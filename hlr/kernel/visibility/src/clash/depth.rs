@@ -113,6 +113,9 @@ impl Bodies<'_> {
         // Two planar faces in nearly one plane come apart by what their file rounded, over any length: that closes no gap
         // between lines (`level`), and only where it is more than a contact is it a line (`beyond`).
         let curved = planes.iter().any(Option::is_none);
+        // The plane of a facet that noise has tilted runs through the other surface, however nearly the two coincide: not
+        // how far they leave the plane counts, but how far they leave one another.
+        let from_one_another = if followed && !solid { come_apart() } else { f64::INFINITY };
         // Depth is measured at right angles to the surfaces. An edge that lies deeper than this behind one is hidden by it
         // in some views, so from here on the line has to be there. Facets of meshes without B-rep cross by any depth where
         // two of them stand for one curved surface, but only at small angles.
@@ -127,7 +130,7 @@ impl Bodies<'_> {
                 level[k] = match (solid, steep && here.is_finite()) {
                     (true, true) => here,
                     (true, false) => level[k].min(here),
-                    (false, true) => level[k].max(here),
+                    (false, true) => level[k].max(here.min(from_one_another)),
                     (false, false) => level[k],
                 };
             }
