@@ -98,7 +98,7 @@ def _is_folder_alone(name: str) -> bool:
 
 def _without_young_bytecode(path: Path) -> None:
     """Remove the bytecode of a file that was just written: Python takes it also for another text of that second."""
-    with suppress(OSError, NotImplementedError):
+    with suppress(OSError, NotImplementedError):  # a Python that keeps no bytecode
         kept = Path(cache_from_source(str(path)))
         if kept.stat().st_mtime - path.stat().st_mtime < _YOUNG_S:
             kept.unlink()

@@ -99,23 +99,17 @@ impl Bodies<'_> {
         let across = clash.triangles.map(|t| self.across(t));
         let (reach, mut level) = self.corners_beyond(clash, &across);
         let steep = clash.meeting.sine >= SLIGHT_ANGLE;
-        // A mesh that meets itself: its corners decide.
         let two_bodies = groups[0] != groups[1];
-        let followed = steep && (solid || two_bodies);
         // A triangle that has only a corner or a side on the other's plane does not tell which way the surfaces cross.
         let astride = level[0].min(level[1]) > CONTACT_POINT * touch;
-        let come_apart = || self.sheet.apart(clash.triangles, middle, most);
-        let apart = if solid && !steep && astride { come_apart() } else { f64::INFINITY };
-        if !solid && !steep && two_bodies && self.is_fine(clash, touch) {
-            let apart = come_apart();
-            level = level.map(|corners| if apart.is_finite() { corners.max(apart) } else { corners });
-        }
+        let come_apart = |asked| if asked { self.sheet.apart(clash.triangles, middle, most) } else { f64::INFINITY };
+        let apart = come_apart(solid && !steep && astride);
+        // Of a mesh that meets itself its corners decide, and so they do where large facets cross at a small angle.
+        let meshes_followed = !solid && two_bodies && (steep || self.is_fine(clash, touch));
+        let meshes_apart = come_apart(meshes_followed);
         // Two planar faces in nearly one plane come apart by what their file rounded, over any length: that closes no gap
         // between lines (`level`), and only where it is more than a contact is it a line (`beyond`).
         let curved = planes.iter().any(Option::is_none);
-        // The plane of a facet that noise has tilted runs through the other surface, however nearly the two coincide: not
-        // how far they leave the plane counts, but how far they leave one another.
-        let from_one_another = if followed && !solid { come_apart() } else { f64::INFINITY };
         // Depth is measured at right angles to the surfaces. An edge that lies deeper than this behind one is hidden by it
         // in some views, so from here on the line has to be there. Facets of meshes without B-rep cross by any depth where
         // two of them stand for one curved surface, but only at small angles.
@@ -125,14 +119,16 @@ impl Bodies<'_> {
         for k in 0..2 {
             if curved && apart.is_finite() {
                 level[k] = apart;
-            } else if solid || followed {
-                let here = self.sheet.reach(&across[k].normal, clash.triangles[1 - k], middle, most);
-                level[k] = match (solid, steep && here.is_finite()) {
-                    (true, true) => here,
-                    (true, false) => level[k].min(here),
-                    (false, true) => level[k].max(here.min(from_one_another)),
-                    (false, false) => level[k],
-                };
+            } else if solid || meshes_followed {
+                let reach = || self.sheet.reach(&across[k].normal, clash.triangles[1 - k], middle, most);
+                let here = if solid || steep { reach() } else { meshes_apart };
+                if solid {
+                    level[k] = if steep && here.is_finite() { here } else { level[k].min(here) };
+                } else if here.is_finite() {
+                    // The plane of a facet that noise has tilted runs through the other surface, however nearly the two
+                    // coincide: how far they leave one another counts as well.
+                    level[k] = level[k].max(here.min(meshes_apart));
+                }
             }
             let deep = if apart.is_finite() { apart } else { level[k] };
             // A planar face has no chord error: how far a wall goes beyond it is known, and another planar face at any
@@ -155,7 +151,7 @@ impl Bodies<'_> {
         let level = level[0].min(level[1]);
         // The surface goes on beyond a triangle that has no more than a corner on the other side, and beyond its
         // neighbours too.
-        let reach = if followed { reach.max(level) } else { reach };
+        let reach = if steep && (solid || two_bodies) { reach.max(level) } else { reach };
         Depth { touch, level, beyond, certain, reach }
     }
 
