@@ -80,6 +80,11 @@ def limit_threads(threads: int) -> int:
     Returns the number that it was before.
     """
 
+def boxes_near(corners: Floats, reach: float) -> Bools:
+    """(p,) whether the box around the eight corners (p, 8, 3) of each part, `reach` wider on all sides, comes near that
+    of another part; always True where it does, rarely where it does not.
+    """
+
 def placed_boxes(boxes: Floats, root: Ints, place: Floats) -> tuple[Floats, Floats]:
     """Corners (p, 8, 3) of the bounding boxes of parts, and the box (2, 3) around all of them.
 
@@ -437,6 +442,7 @@ def outlined(
     on: TrueSurfaces,
     columns: tuple[Bytes, Ints, Ints, Bools, Ints],
     first: Ints,
+    mesh_errors: Floats,
     groups: Groups,
     convex: bool,
     kinds: tuple[Bools, Bools, int, int],
@@ -446,10 +452,11 @@ def outlined(
     """The image with these outlines.
 
     columns: class, part and group of each edge, and whether a curved surface may show its outline there; group of each
-    triangle. first (p,): the first face of each part; convex: all is one convex body. kinds: (256,) by the class of an
-    edge, whether it bounds faces, and whether they join smoothly there; the class of outlines, and that of edges inside
-    faces. lengths, model units: how far points are moved beyond the triangles that stand out, at most, and off a face
-    before a line is compared with it. ValueError where they do not fit.
+    triangle. first (p,): the first face of each part; mesh_errors (p,): the chord error of its mesh, as a share of that
+    of the coarsest; convex: all is one convex body. kinds: (256,) by the class of an edge, whether it bounds faces, and
+    whether they join smoothly there; the class of outlines, and that of edges inside faces. lengths, model units, for
+    the coarsest mesh: how far points are moved beyond the triangles that stand out, at most, and off a face before a
+    line is compared with it. ValueError where they do not fit.
     """
 
 _Vector = tuple[float, float, float]
@@ -890,11 +897,13 @@ class BrepModel:
         deflection: float,
         angle: float,
         progress: Callable[[float], None] | None = None,
+        shares: Floats | None = None,
         most_steps: int = ...,
     ) -> BrepMesh:
         """Meshes all faces. deflection: chord error; angle: turning angle, radians; progress: called with the share of
-        faces that are done; most_steps: limit on the work on one face, half a billion but for tests. Raises MemoryError
-        where there would be more than 8 million points."""
+        faces that are done; shares (parts,): of the deflection, how much each part may use, above 0 and at most 1;
+        most_steps: limit on the work on one face, half a billion but for tests. Raises MemoryError where there would be
+        more than 8 million points."""
 
 class CutParts:
     """What planes have left of parts: what lies beyond them is taken away, and bodies are closed there.

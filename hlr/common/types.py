@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]
+Bools = npt.NDArray[np.bool_]
 Color = tuple[float, float, float]
 """Red, green, blue as screens show them (sRGB); 0 to 1."""
 Rgba = tuple[float, float, float, float]

@@ -35,6 +35,15 @@ def note_meshing(planner: Planner, scene: Scene) -> None:
     planner.spent("triangulation of planar faces", planar_triangles=triangles - bent)
 
 
+def note_touching(planner: Planner, scene: Scene, meshed: Tessellation) -> None:
+    """State how many parts are meshed more finely, as they may touch others."""
+    faces = scene.true_surfaces is not None
+    touching = int(meshed.touching.sum())
+    facts = Facts(touching=touching, parts=len(scene.parts), faces=faces)
+    planner.state(facts, "finer mesh where parts touch")
+    planner.spent("finer mesh where parts touch", touching_parts=touching)
+
+
 def note_rescue(planner: Planner, scene: Scene, meshed: Tessellation) -> None:
     """State what became of the faces that the kernel could not mesh."""
     failed = meshed.rescued + meshed.lost

@@ -12,7 +12,7 @@ The stages in order; on the right, what stops there because it needs no more::
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
@@ -32,7 +32,7 @@ from hlr.image.placement import Placement, check_size, of_one_scale, place
 from hlr.image.transparency import glass_of, hiding, opacity_of, without_glass
 from hlr.linework.curves import EdgeCurveLookup
 from hlr.linework.lines import draw_lines
-from hlr.pipeline.facts import note_meshing, note_reading, note_rescue
+from hlr.pipeline.facts import note_meshing, note_reading, note_rescue, note_touching
 from hlr.pipeline.finish import Solved, finished
 from hlr.request.accuracy import ANGLE, REMESH, SMALL_DRAWING, SPHERE_MESH
 from hlr.request.drawing_effects import drawing_effects, left_to_view
@@ -112,13 +112,29 @@ class Session:
 
         coarser: times the chord error of the mesh, where no tolerance depends on it.
         """
-        started = perf_counter()
-        meshed = self.source.mesh(coarser * deflection, angle, self.progress)
-        started = lap(self.clock, "tessellate", started)
-        self.progress("scene", 0.0)
-        scene = build(meshed, self.options.crease, deflection, planner, self._on_cut, self.source.appearances)
-        lap(self.clock, "scene", started)
-        return scene, meshed
+
+        def made(finer: Collection[str]) -> tuple[Scene, Tessellation]:
+            started = perf_counter()
+            meshed = self._meshed(coarser * deflection, angle, finer)
+            started = lap(self.clock, "tessellate", started)
+            self.progress("scene", 0.0)
+            scene = build(meshed, self.options.crease, deflection, planner, self._on_cut, self.source.appearances)
+            lap(self.clock, "scene", started)
+            return scene, meshed
+
+        # The light on a filled face is divided at its triangles.
+        scene, meshed = made(self.source.names() if self.options.fill else ())
+        coarse = [i for i in scene.through_themselves if len(meshed.touching) and not meshed.touching[i]]
+        # Where a part touches itself, its facets matter as where it touches another.
+        return made({scene.parts.labels[i].name for i in coarse}) if coarse else (scene, meshed)
+
+    def _meshed(self, deflection: float, angle: float, finer: Collection[str]) -> Tessellation:
+        """finer: names of parts meshed as finely as those that touch others, where the source knows of that."""
+        mesh_finer = getattr(self.source, "mesh_finer", None) if finer else None
+        if mesh_finer is None:
+            return self.source.mesh(deflection, angle, self.progress)
+        meshed: Tessellation = mesh_finer(finer, deflection, angle, self.progress)
+        return meshed
 
     def scene_by_size(self) -> Scene:
         """The scene for a purpose without a drawing: meshed at a two-thousandth of its size.
@@ -147,6 +163,7 @@ class Session:
             finest, begun = self._finest(), perf_counter()
             self.scene, meshed = self.scene_at(finest, self.placements[0].tolerances.angle, planner, coarser)
             meshing += perf_counter() - begun
+            note_touching(planner, self.scene, meshed)
             note_meshing(planner, self.scene)
             pairs = zip(self.cameras, self.placements, strict=True)
             drafts = [self._draft(camera, placement, planner.fork()) for camera, placement in pairs]

@@ -82,6 +82,14 @@ def _fine(f: Facts, options: Options) -> Answer:
     return False, "one sphere: its outline is the only line, and is computed on the surface itself"
 
 
+def _touching(f: Facts, _o: Options) -> Answer:
+    if not f.faces:
+        return False, "a mesh is drawn as it is"
+    if f.touching:
+        return True, f"{_count(f.touching, 'part')} may touch others" if f.parts > 1 else "its faces are not one solid"
+    return False, "no part comes near another" if f.parts > 1 else "one solid touches no other"
+
+
 def _curved(f: Facts, _o: Options) -> Answer:
     if not f.faces:
         return False, "a mesh is drawn as it is"
@@ -222,6 +230,7 @@ _BEFORE: tuple[Effect, ...] = (
     Effect("mesh reader", ASKED, _mesh, ("mesh_parts",)),
     Effect("section", ASKED, _section, ("cut_parts",)),
     Effect("fine mesh", SCENE, _fine),
+    Effect("finer mesh where parts touch", SCENE, _touching, ("touching_parts",)),
     Effect("meshing of curved faces", SCENE, _curved, ("curved_triangles",)),
     Effect("triangulation of planar faces", SCENE, _planar, ("planar_triangles",)),
     Effect("rescue of faces", SCENE, _rescue, ("rescued_faces", "lost_faces")),

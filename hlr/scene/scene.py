@@ -23,6 +23,7 @@ class TrueSurfaces:
     first (p,) the number of each part's first face; number (f,) of its surface in `surfaces`
     place (f, 3, 4) from the surface's frame into the model; inward (f,) bool; curved (f,) bool: may show an outline
     planar (f,) bool; curved_faces, planar_faces: how many are
+    mesh_errors (p,): the chord error of each part's mesh, as a share of the deflection
     """
 
     corner: Ints
@@ -35,7 +36,13 @@ class TrueSurfaces:
     planar: npt.NDArray[np.bool_]
     curved_faces: int
     planar_faces: int
+    mesh_errors: Floats
     surfaces: Surfaces
+
+    @property
+    def coarsest(self) -> float:
+        """The largest of `mesh_errors`."""
+        return float(self.mesh_errors.max())
 
     def of(self, wanted: npt.NDArray[np.bool_], face: Ints) -> _kernel.TrueSurfaces:
         """As the kernel takes them. wanted (f,) bool: faces whose surfaces are included; face (t,) of each triangle."""
@@ -88,6 +95,7 @@ class Geometry:
     intersections: None where no intersection line is curved.
     crossed (m, 2): the last m edges are intersection lines, and these the two triangles that cross there; None: no such
     line, or outlines and cut edges have been added since.
+    through_themselves: numbers of parts whose surfaces pass through themselves.
     facets (t, 3): normals of parts without B-rep, zero where the coordinates are too coarse; None: all is B-rep.
     """
 
@@ -114,6 +122,7 @@ class Geometry:
     facets: Floats | None = None
     intersections: IntersectionCurves | None = None
     crossed: Ints | None = None
+    through_themselves: frozenset[int] = frozenset()
 
     def mesh(self) -> _kernel.Mesh:
         """Points, triangles and edges as the kernel takes them; the arrays are not copied."""

@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from hlr.common.types import Color, Floats, Ints, Progress, Rgba
+from hlr.common.types import Bools, Color, Floats, Ints, Progress, Rgba
 from hlr.drawing.notes import Note
 
 DEFAULT_COLOR: Rgba = (0.70, 0.74, 0.79, 1.0)
@@ -170,6 +170,7 @@ class Tessellation:
     edge_curves: the curves of edges, given as (m,) parts and (m,) indices in their TopExp edge maps; None for meshes
     rescued, lost: how many underlying faces were mended or meshed by OpenCASCADE, and how many nobody could mesh
     surface_parts: the names of parts that are faces outside all solids, which may be open; asked only where one is
+    touching: (p,) bool: parts of B-reps that are meshed more finely, as they may touch others; empty: none
     """
 
     parts: Sequence[PartMesh]
@@ -178,6 +179,7 @@ class Tessellation:
     lost: int = 0
     edge_curves: Callable[[Ints, Ints], EdgeCurves] | None = None
     surface_parts: Callable[[], Collection[str]] = frozenset
+    touching: Bools = field(default_factory=lambda: np.zeros(0, bool))
 
 
 Choice = tuple[tuple[str, ...], tuple[str, ...]]

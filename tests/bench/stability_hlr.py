@@ -48,7 +48,8 @@ class Disturbed:
         self.name, self.kind, self.frame, self.notes = source.name, source.kind, source.frame, source.notes
         self._source = source
         pairs = zip(meshed.parts, points, strict=True)
-        self._meshed = Tessellation([replace(part, points=moved) for part, moved in pairs], list(meshed.notes))
+        parts = [replace(part, points=moved) for part, moved in pairs]
+        self._meshed = Tessellation(parts, list(meshed.notes), touching=meshed.touching)
 
     def bounds(self) -> Floats:
         return self._source.bounds()

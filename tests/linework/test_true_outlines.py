@@ -147,7 +147,8 @@ def test_a_torus_has_as_many_outlines_as_its_angle_says():
     """One closed curve outside; inside one closed curve without cusps where the sight is steep, else four arcs between
     four cusps, of which the two concave ones are hidden."""
     for view in VIEWS:
-        scene, _, _ = traced(torus(), view, None)
+        # One of the views is nearly edge-on: only a fine mesh tells outlines apart that are hundredths of a mm away.
+        scene, _, _ = traced(torus(), view, None, finer=2.0)
         found = [points for _, points in outlines(scene)]
         steep = _cusps(np.sqrt(1 - view[2] ** 2), abs(view[2]))
         assert len(found) == (5 if steep else 2), view

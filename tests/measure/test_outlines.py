@@ -55,7 +55,7 @@ def test_where_branches_meet_the_error_is_the_distance_to_the_outline(disc, view
 @pytest.mark.parametrize("shift", [0.06, 0.2])
 def test_an_outline_beside_it_is_off_by_as_much(disc, shift):
     off, true = measured_and_true(disc, "front", shift)
-    assert off.max() == pytest.approx(true.max(), abs=1e-3) == pytest.approx(shift, abs=0.01)
+    assert off.max() == pytest.approx(true.max(), abs=1e-3) == pytest.approx(shift, abs=0.012)
 
 
 def test_where_the_surface_is_nearly_edge_on_over_a_long_way_the_search_goes_on():

@@ -79,6 +79,7 @@ SCENES = {
     "fine mesh": ((lambda: cq.Workplane().box(9, 8, 7), {}), (ball, {})),
     "meshing of curved faces": ((ball, {}), (lambda: cq.Workplane().box(9, 8, 7), {})),
     "triangulation of planar faces": ((lambda: cq.Workplane().box(9, 8, 7), {}), (ball, {})),
+    "finer mesh where parts touch": ((lambda: solids(*TOUCHING), {}), (lambda: solids(*APART), {})),
     "rescue of faces": ((lambda: scrawled_cylinder()[0], {}), (ball, {})),
     "repair": ((twice, {}), (lambda: box((20, 20, 20)), {})),
     "stitching of borders": ((lambda: two_sheets(1e-4), {}), (lambda: box((20, 20, 20)), {})),

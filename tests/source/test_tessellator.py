@@ -171,14 +171,14 @@ def same(a: PartMesh, b: PartMesh) -> bool:
 @pytest.mark.parametrize("name", ["sinks", "fillets", "sphere", "revolved", "union"])
 def test_triangles_of_another_mesher_are_joined_to_the_edges(name):
     """As they are where ours fails: here for every face of a sound solid, one by one and all."""
-    from hlr.request.accuracy import EACH_SURFACE
+    from hlr.request.accuracy import ALONE
     from hlr.source.cad.rescue import faces_of, rescue
 
     source = open_source(SOLIDS[name]())
     source.mesh(0.05, 0.3)
     tessellator = source._tessellator
     (ours,) = source.mesh(0.05, 0.3).parts
-    meshed = tessellator._model.mesh(EACH_SURFACE * 0.05, 0.3)
+    meshed = tessellator._model.mesh(ALONE * 0.05, 0.3)
     faces = faces_of(source.prototypes.shapes, set(range(tessellator._model.n_faces)))
     for number, face in faces.items():
         assert rescue(meshed, number, face, 0.08, 0.5)

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from hlr import _kernel
-from hlr.common.types import Floats, Ints, Progress
+from hlr.common.types import Bools, Floats, Ints, Progress
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError
+from hlr.request.accuracy import CONTACT
 from hlr.request.options import Vector
 from hlr.source.bounds import check_bounds, diagonal
 from hlr.source.cad.occt_collections import new_collection
@@ -206,12 +207,22 @@ class BrepSource:
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Tessellation:
         """Tessellate: chord error at most `deflection` (millimetres), turning per chord at most `angle` (radians).
 
+        Parts that may touch others are meshed more finely.
+
         Raises:
             SourceError: no part could be meshed, or it would have too many triangles.
         """
-        surfaces = self._part_tessellator
+        return self.mesh_finer((), deflection, angle, progress)
+
+    def mesh_finer(
+        self, names: Collection[str], deflection: float, angle: float, progress: Progress | None = None
+    ) -> Tessellation:
+        """As `mesh`, with the parts of these names meshed as finely as those that may touch others."""
+        surfaces, touching = self._part_tessellator, self._touching(deflection)
+        if names:
+            touching |= [part.name in names for part in self._parts]
         try:
-            tables, faults = surfaces.mesh(deflection, angle, progress)
+            tables, faults = surfaces.mesh(deflection, angle, self._touching_prototypes(touching), progress)
         except MemoryError:
             raise SourceError(
                 f"{self._name} would have more than 16 million triangles: give a coarser accuracy, or a smaller scale."
@@ -230,7 +241,7 @@ class BrepSource:
                 if not is_meshed:
                     text = f'Part "{part.name}" has no triangles and was left out.'
                     notes.append(Note("part-left-out", text))
-            prototypes, transforms = prototypes[meshed], transforms[meshed]
+            prototypes, transforms, touching = prototypes[meshed], transforms[meshed], touching[meshed]
         if not kept:
             raise SourceError(f"{self._name}: none of its faces could be meshed.")
         if faults.off:
@@ -248,7 +259,21 @@ class BrepSource:
 
         parts = PartMeshes(kept, placed, surfaces if placed.brep_parts else None)
         rescued = len(faults.rescued) + len(faults.crossed)
-        return Tessellation(parts, notes, rescued, len(faults.lost), edge_curves, self._surface_parts)
+        return Tessellation(parts, notes, rescued, len(faults.lost), edge_curves, self._surface_parts, touching)
+
+    def _touching(self, deflection: float) -> Bools:
+        """(p,) which parts may touch another one, or themselves, as faces outside a solid may."""
+        may: Bools = self._prototypes.counts[self._prototype_numbers, 2] != 1
+        if len(self._parts) > 1:
+            corners, _ = self._placed
+            may |= _kernel.boxes_near(corners, CONTACT * deflection)
+        return may
+
+    def _touching_prototypes(self, touching: Bools) -> Bools:
+        """Of the prototypes that are used, which have a part that may touch another one."""
+        out = np.zeros(len(self._used_prototypes), bool)
+        out[self._used_numbers[touching]] = True
+        return out
 
     def _surface_parts(self) -> frozenset[str]:
         """The names of parts that are faces outside all solids."""

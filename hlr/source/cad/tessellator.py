@@ -12,8 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from hlr import _kernel
-from hlr.common.types import Floats, Ints, Progress
-from hlr.request.accuracy import EACH_SURFACE
+from hlr.common.types import Bools, Floats, Ints, Progress
+from hlr.request.accuracy import ALONE, TOUCHING
 from hlr.request.options import Vector
 from hlr.source.cad.meshing_faults import MeshingFaults
 from hlr.source.cad.prototypes import Prototypes
@@ -37,13 +37,16 @@ class Tessellator:
         self._planar = self._model.planar(PLANARITY_SHARE * size)
 
     def mesh(
-        self, deflection: float, angle: float, progress: Progress | None = None
+        self, deflection: float, angle: float, touching: Bools, progress: Progress | None = None
     ) -> tuple[_kernel.PartTables, MeshingFaults]:
-        """Meshes of the prototypes, and the faces that failed. deflection: model units; angle: turning, radians."""
+        """Meshes of the prototypes, and the faces that failed. deflection: model units; angle: turning, radians.
+
+        touching: of each chosen prototype, whether it may touch another one somewhere
+        """
         if progress is not None:
             progress("tessellate", 0.0)
         report = None if progress is None else lambda done: progress("tessellate", done)
-        meshed = self._model.mesh(EACH_SURFACE * deflection, angle, report)
+        meshed = self._model.mesh(ALONE * deflection, angle, report, np.where(touching, TOUCHING / ALONE, 1.0))
         faults = self._rescue_failed(meshed, deflection, angle)
         faults.folded = self._model.folded()
         # Two faces that meet at an edge may be twice as far apart: that is the accuracy.

@@ -18,7 +18,7 @@ use std::sync::atomic::AtomicUsize;
 use hlr_brep::certificate::{Certificate, certify};
 use hlr_brep::geometry::surface::Surface;
 use hlr_brep::model::Model;
-use hlr_brep::tessellate::{LIMITS, Watch, tessellate};
+use hlr_brep::tessellate::{ChordErrors, LIMITS, Watch, tessellate};
 use rayon::prelude::*;
 
 const ANGLE: f64 = 0.35;
@@ -33,7 +33,8 @@ fn main() {
         let model = Model::read(&std::fs::read(&pair[0]).expect("a file"), None).expect("a dump");
         let deflection = share * pair[1].parse::<f64>().expect("a length");
         let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
-        let made = tessellate(&model, deflection, ANGLE, LIMITS, &watch).expect("not stopped");
+        let made =
+            tessellate(&model, &ChordErrors::same(&model, deflection), ANGLE, LIMITS, &watch).expect("not stopped");
         let of_faces: Vec<Certificate> = model
             .faces
             .par_iter()

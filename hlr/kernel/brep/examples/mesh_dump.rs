@@ -13,7 +13,7 @@ use hlr_brep::faces::border;
 use hlr_brep::geometry::surface::Surface;
 use hlr_brep::mesh::{Fault, Progress, border_share, mesh_face};
 use hlr_brep::model::Model;
-use hlr_brep::tessellate::{LIMITS, Watch, tessellate};
+use hlr_brep::tessellate::{ChordErrors, LIMITS, Watch, tessellate};
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -113,7 +113,7 @@ fn main() {
 fn driven(model: &Model, deflection: f64, parsed: f64) {
     let start = Instant::now();
     let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
-    let made = tessellate(model, deflection, 0.5, LIMITS, &watch).expect("not stopped");
+    let made = tessellate(model, &ChordErrors::same(model, deflection), 0.5, LIMITS, &watch).expect("not stopped");
     let time = start.elapsed().as_secs_f64();
     let triangles: usize = made.faces.iter().map(|f| f.mesh.triangles.len()).sum();
     println!("{triangles} triangles, {} faces; parse {parsed:.4} all {time:.4} s", made.faces.len());

@@ -24,7 +24,7 @@ use hlr_brep::geometry::vector::{Vector, cross, dot, length, scaled, sub};
 use hlr_brep::mesh::FaceMesh;
 use hlr_brep::model::Model;
 use hlr_brep::shapes::Face;
-use hlr_brep::tessellate::{LIMITS, Tessellation, Watch, tessellate};
+use hlr_brep::tessellate::{ChordErrors, LIMITS, Tessellation, Watch, tessellate};
 
 /// Number of places compared along each edge.
 const ALONG: usize = 200;
@@ -52,7 +52,7 @@ fn main() {
     let all = arguments.iter().any(|a| a == "--all");
     let model = Model::read(&std::fs::read(file).expect("a file"), None).expect("a dump");
     let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
-    let made = tessellate(&model, deflection, 0.35, LIMITS, &watch).expect("not stopped");
+    let made = tessellate(&model, &ChordErrors::same(&model, deflection), 0.35, LIMITS, &watch).expect("not stopped");
     let (mut most, mut above, mut real) = ([0.0f64; 2], 0, 0);
     for (number, (face, meshed)) in model.faces.iter().zip(&made.faces).enumerate() {
         let Some(surface) = &face.surface else { continue };

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use hlr_brep::assemble::{PartMesh, assemble};
 use hlr_brep::model::Model;
-use hlr_brep::tessellate::{LIMITS, Watch, tessellate};
+use hlr_brep::tessellate::{ChordErrors, LIMITS, Watch, tessellate};
 
 const ANGLE: f64 = 0.35;
 
@@ -34,7 +34,8 @@ fn main() {
                 let model = Model::read(&bytes, None).expect("a dump");
                 mark(1);
                 let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
-                let meshed = tessellate(&model, deflection, ANGLE, LIMITS, &watch).expect("not stopped");
+                let meshed = tessellate(&model, &ChordErrors::same(&model, deflection), ANGLE, LIMITS, &watch)
+                    .expect("not stopped");
                 mark(2);
                 made = assemble(&model, &meshed);
                 mark(3);

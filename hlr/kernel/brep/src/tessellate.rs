@@ -3,6 +3,7 @@
 //! Chords that are too coarse for one of their faces, or cross there, are divided for all faces that share them; these
 //! faces are then meshed again.
 
+mod chord_errors;
 mod one_face;
 mod rounds;
 mod tessellation;
@@ -13,6 +14,7 @@ use crate::edges::Polyline;
 use crate::mesh::Fault;
 use crate::model::Model;
 use crate::shapes::Face;
+pub use chord_errors::ChordErrors;
 use rounds::meshed;
 pub use tessellation::{MeshedFace, Tessellation, Watch};
 
@@ -46,10 +48,10 @@ pub enum Ended {
     TooFine,
 }
 
-/// The mesh of a model for a chord error and a turning angle in radians.
+/// The mesh of a model for chord errors and a turning angle in radians.
 pub fn tessellate(
     model: &Model,
-    deflection: f64,
+    errors: &ChordErrors,
     angle: f64,
     limits: Limits,
     watch: &Watch,
@@ -58,14 +60,14 @@ pub fn tessellate(
     let full = || used.load(Ordering::Relaxed) > limits.points;
     let stopped = || full() || (watch.stopped)();
     let limited = Watch { stopped: &stopped, done: watch.done };
-    let made = meshed(model, deflection, angle, &used, limits.steps, &limited);
+    let made = meshed(model, errors, angle, &used, limits.steps, &limited);
     // Points are only ever added, and each edge and face has as many on any number of threads.
     if full() {
         return Err(Ended::TooFine);
     }
     let made = made.ok_or(Ended::Stopped)?;
     let refused = |(i, face): (usize, &MeshedFace)| {
-        face.fault == Some(Fault::TooFine) && deflection < ABSURD * extent(&model.faces[i], &made.lines)
+        face.fault == Some(Fault::TooFine) && errors.whole < ABSURD * extent(&model.faces[i], &made.lines)
     };
     if made.faces.iter().enumerate().any(refused) { Err(Ended::TooFine) } else { Ok(made) }
 }

@@ -17,7 +17,7 @@ use hlr_brep::faces::border;
 use hlr_brep::format::IDENTITY;
 use hlr_brep::model::Model;
 use hlr_brep::reach::reach;
-use hlr_brep::tessellate::{Limits, Watch, tessellate};
+use hlr_brep::tessellate::{ChordErrors, Limits, Watch, tessellate};
 use hlr_mesh::tables::Tables;
 
 const GOOD: &[u8] = include_bytes!("../../brep/tests/cylinder_4.bin");
@@ -102,7 +102,7 @@ fn mesh_and_cut(model: &Model) {
 
 fn mesh(model: &Model, deflection: f64) {
     let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
-    let Ok(meshed) = tessellate(model, deflection, ANGLE, SMALL, &watch) else { return };
+    let Ok(meshed) = tessellate(model, &ChordErrors::same(model, deflection), ANGLE, SMALL, &watch) else { return };
     let parts = assemble(model, &meshed);
     assert_eq!(parts.len(), model.parts.len());
     let Ok(tables) = Tables::of_roots(parts, &vec![false; model.faces.len()]) else { return };

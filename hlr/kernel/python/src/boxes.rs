@@ -1,11 +1,13 @@
-//! Binding of `hlr_mesh::boxes`: bounding boxes of placed parts.
+//! Bindings of `hlr_mesh::boxes` and `hlr_visibility::boxes`: bounding boxes of placed parts.
 
-use numpy::{IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray3};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat, table};
+use super::groups::not_finite;
 use hlr_mesh::boxes::placed;
+use hlr_visibility::boxes::meeting::boxes_meet;
 
 /// Corners (p, 8, 3) and the box (2, 3) around them.
 type PlacedBoxes<'py> = (Bound<'py, PyArray3<f64>>, Bound<'py, PyArray2<f64>>);
@@ -30,4 +32,26 @@ pub fn placed_boxes<'py>(
     let (corners, around) = placed(boxes, root, place);
     let corners = corners.into_flattened().into_pyarray(py).reshape([root.len(), 8, 3])?;
     Ok((corners, table(py, around.to_vec())?))
+}
+
+/// (p,) whether the box around the eight corners (p, 8, 3) of each part, `reach` wider on all sides, comes near that of
+/// another part.
+#[pyfunction]
+pub fn boxes_near<'py>(
+    py: Python<'py>,
+    corners: PyReadonlyArray3<'py, f64>,
+    reach: f64,
+) -> PyResult<Bound<'py, PyArray1<bool>>> {
+    let wrong = |_| PyValueError::new_err("corners must be a C-contiguous (p, 8, 3) array");
+    let (corners, odd) = corners.as_slice().map_err(wrong)?.as_chunks::<24>();
+    if !odd.is_empty() {
+        return Err(PyValueError::new_err("boxes have eight corners"));
+    }
+    let end = |least: f64, pick: fn(f64, f64) -> f64, beyond: f64| -> Vec<[f64; 3]> {
+        let along =
+            |own: &[f64; 24], k: usize| own.iter().skip(k).step_by(3).fold(least, |end, &c| pick(end, c)) + beyond;
+        corners.iter().map(|own| [0, 1, 2].map(|k| along(own, k))).collect()
+    };
+    let (low, high) = (end(f64::INFINITY, f64::min, -reach), end(f64::NEG_INFINITY, f64::max, reach));
+    Ok(boxes_meet(&low, &high).ok_or_else(not_finite)?.into_pyarray(py))
 }

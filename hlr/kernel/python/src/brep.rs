@@ -26,7 +26,7 @@ use hlr_brep::model::Model;
 use hlr_brep::one_sphere::is_one_sphere;
 use hlr_brep::reach::{Placed, reach};
 use hlr_brep::shapes::Face;
-use hlr_brep::tessellate::{Ended, LIMITS, Limits, MeshedFace, Tessellation, Watch, tessellate};
+use hlr_brep::tessellate::{ChordErrors, Ended, LIMITS, Limits, MeshedFace, Tessellation, Watch, tessellate};
 use hlr_mesh::tables::Tables;
 
 type Records<'py> = (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<f64>>);
@@ -194,15 +194,17 @@ impl BrepModel {
         is_one_sphere(&self.0)
     }
 
-    /// Meshes all faces. `progress`: called with the share of faces that are done; `most_steps`: of one face, other than
-    /// `LIMITS` has for tests alone. A MemoryError: there would be more points than the limit.
-    #[pyo3(signature = (deflection, angle, progress = None, most_steps = LIMITS.steps))]
+    /// Meshes all faces. `progress`: called with the share of faces that are done; `shares` (parts,): of the deflection,
+    /// how much of it each part may use, in (0, 1]; `most_steps`: of one face, other than `LIMITS` has for tests alone. A
+    /// MemoryError: there would be more points than the limit.
+    #[pyo3(signature = (deflection, angle, progress = None, shares = None, most_steps = LIMITS.steps))]
     fn mesh(
         &self,
         py: Python<'_>,
         deflection: f64,
         angle: f64,
         progress: Option<Py<PyAny>>,
+        shares: Option<PyReadonlyArray1<'_, f64>>,
         most_steps: u64,
     ) -> PyResult<BrepMesh> {
         let positive = |x: f64| x > 0.0 && x.is_finite();
@@ -210,13 +212,24 @@ impl BrepModel {
             return Err(PyValueError::new_err("deflection and angle must be positive"));
         }
         let (model, done) = (&self.0, AtomicUsize::new(0));
+        let errors = match &shares {
+            None => ChordErrors::same(model, deflection),
+            Some(shares) => {
+                let shares = flat(shares, "shares")?;
+                expect_len("shares", shares.len(), model.parts.len())?;
+                if shares.iter().any(|&share| !(share > 0.0 && share <= 1.0)) {
+                    return Err(PyValueError::new_err("shares must be above 0 and at most 1"));
+                }
+                ChordErrors::of_parts(model, deflection, shares)
+            }
+        };
         let tell = |py: Python<'_>| {
             let share = done.load(Ordering::Relaxed) as f64 / (OF_A_FACE * model.faces.len().max(1)) as f64;
             progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (share,)).map(|_| ()))
         };
         let limits = Limits { steps: most_steps, ..LIMITS };
         let work = |stopped: &(dyn Fn() -> bool + Sync)| {
-            tessellate(model, deflection, angle, limits, &Watch { stopped, done: &done })
+            tessellate(model, &errors, angle, limits, &Watch { stopped, done: &done })
         };
         // A face costs as much as many points.
         let inside = |face: &Face| face.surface.as_ref().map_or(Some(0), |s| points_inside(s, deflection, angle));

@@ -9,7 +9,7 @@ use super::plane::Plane;
 use crate::body::{Body, model_of};
 use crate::explore::Part;
 use crate::geometry::vector::length;
-use crate::tessellate::{LIMITS, MeshedFace, Watch, tessellate};
+use crate::tessellate::{ChordErrors, LIMITS, MeshedFace, Watch, tessellate};
 use hlr_accuracy::CUT_DISPLACED;
 
 /// Of the area of a closed mesh: how far its area, as a vector, may be from zero.
@@ -35,7 +35,8 @@ pub fn check(
         below.add_below(found, own.reversed, &plane.normal);
     }
     let model = model_of(pieces.to_vec(), false);
-    let meshed = tessellate(&model, deflection, angle, LIMITS, watch).map_err(|_| "it was stopped")?;
+    let errors = ChordErrors::same(&model, deflection);
+    let meshed = tessellate(&model, &errors, angle, LIMITS, watch).map_err(|_| "it was stopped")?;
     if meshed.faces.iter().any(|face| face.fault.is_some()) {
         return Err("a face that is cut has no mesh");
     }
@@ -90,7 +91,9 @@ mod tests {
         // The first plane leaves all of the body, the second one a part of it.
         for (level, whole) in [(1e3, Ok(())), (middle, Err("what is left has another volume"))] {
             let plane = Plane { normal: [0.0, 0.0, 1.0], level, near: 1e-7 };
-            let coarse = tessellate(&model_of(vec![body.clone()], false), deflection, 0.2, LIMITS, &watch).unwrap();
+            let model = model_of(vec![body.clone()], false);
+            let errors = ChordErrors::same(&model, deflection);
+            let coarse = tessellate(&model, &errors, 0.2, LIMITS, &watch).unwrap();
             let divided = DividedBody::new(body.clone(), coarse, &plane, 0.0, true).unwrap();
             let checked = |films, pieces: &[Body]| check(&divided, pieces, &plane, films, deflection, 0.2, &watch);
             assert_eq!(checked(false, std::slice::from_ref(&body)), whole);

@@ -36,7 +36,7 @@ use rayon::prelude::*;
 
 use crate::body::{Body, model_of};
 use crate::model::Model;
-use crate::tessellate::{Ended, LIMITS, Watch, tessellate};
+use crate::tessellate::{ChordErrors, Ended, LIMITS, Watch, tessellate};
 use assemble::assembled;
 use check::check;
 use divided_body::DividedBody;
@@ -143,7 +143,7 @@ fn cut_body(body: &Body, plane: &Plane, how: How, stopped: &(dyn Fn() -> bool + 
     let deflection = COARSE * body.size();
     let watch = Watch { stopped, done: &AtomicUsize::new(0) };
     let cornered = with_corners(body, plane, CUT_BULGE * deflection);
-    let coarse = match tessellate(&cornered, deflection, COARSE_ANGLE, LIMITS, &watch) {
+    let coarse = match tessellate(&cornered, &ChordErrors::same(&cornered, deflection), COARSE_ANGLE, LIMITS, &watch) {
         Ok(coarse) => coarse,
         Err(Ended::Stopped) => return Ok(Cut::Stopped),
         Err(Ended::TooFine) => return Err("its mesh is too fine"),

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use super::chord_errors::ChordErrors;
 use super::one_face::{Divisible, Tried, coarser, failed, try_face};
 use super::tessellation::{MeshedFace, Tessellation, Watch};
 use crate::copied_points::{copy_points, of_originals};
@@ -31,17 +32,17 @@ const MOST_CORNERS: usize = 100_000;
 /// The mesh; None if it was stopped. `used`: points so far. `most_steps`: of one face.
 pub fn meshed(
     model: &Model,
-    deflection: f64,
+    errors: &ChordErrors,
     angle: f64,
     used: &AtomicUsize,
     most_steps: u64,
     watch: &Watch,
 ) -> Option<Tessellation> {
-    let lines = lines_of_edges(model, deflection, angle, used, watch)?;
+    let lines = lines_of_edges(model, errors, angle, used, watch)?;
     let faces = model.faces.len();
     let mut rounds = Rounds {
         model,
-        deflection,
+        errors,
         angle,
         used,
         most_steps,
@@ -77,7 +78,7 @@ pub fn meshed(
 /// The edges and faces of a model as far as they are meshed.
 struct Rounds<'a> {
     model: &'a Model,
-    deflection: f64,
+    errors: &'a ChordErrors,
     angle: f64,
     /// Points of all edges and faces.
     used: &'a AtomicUsize,
@@ -100,6 +101,7 @@ impl Rounds<'_> {
     /// Meshes a face with the chords as they are; None where the work was stopped.
     fn try_one(&self, i: usize, round: usize) -> Option<Tried> {
         let (model, face, stopped) = (self.model, &self.model.faces[i], self.watch.stopped);
+        let error = self.errors.faces[i];
         let divisible = Divisible {
             coarse: round < MOST_ROUNDS && !self.settled.contains(&i),
             upon_one_another: round < ROUNDS_UPON,
@@ -107,13 +109,12 @@ impl Rounds<'_> {
         let left = self.most_steps.saturating_sub(self.taken[i].load(Ordering::Relaxed));
         let told = Some(Done { all: self.watch.done, face: &self.told[i] });
         let steps = Progress::new(stopped, told, left);
-        let tried =
-            steps.watched(|| try_face(model, face, &self.lines, self.deflection, self.angle, divisible, &steps));
+        let tried = steps.watched(|| try_face(model, face, &self.lines, error, self.angle, divisible, &steps));
         self.taken[i].fetch_add(steps.count(), Ordering::Relaxed);
         let tried = match tried {
             Err(Interrupted::TooMuch) => {
                 let few = Progress::half_spent(stopped, told, self.most_steps / PARTS);
-                few.watched(|| coarser(model, face, &self.lines, self.deflection, self.angle, &few))
+                few.watched(|| coarser(model, face, &self.lines, error, self.angle, &few))
             }
             tried => tried,
         };
@@ -161,7 +162,7 @@ impl Rounds<'_> {
         for (edge, chords) in by_edge(&of_originals(chords, &model.edges, lines)) {
             if let Some(line) = &mut lines[edge as usize]
                 && line.points.len() < MOST_CORNERS
-                && line.divide(model, &model.edges[edge as usize], &chords, self.deflection)
+                && line.divide(model, &model.edges[edge as usize], &chords, self.errors.edges[edge as usize])
             {
                 changed.insert(edge);
             }
@@ -175,7 +176,7 @@ impl Rounds<'_> {
 /// The polylines of all edges; None where the work was stopped.
 fn lines_of_edges(
     model: &Model,
-    deflection: f64,
+    errors: &ChordErrors,
     angle: f64,
     used: &AtomicUsize,
     watch: &Watch,
@@ -184,11 +185,12 @@ fn lines_of_edges(
         .edges
         .par_iter()
         .zip(&shares_of_edges(model))
-        .map(|(edge, share)| {
+        .zip(&errors.edges)
+        .map(|((edge, share), error)| {
             if (watch.stopped)() {
                 return None;
             }
-            let line = polyline(model, edge, share * deflection, angle);
+            let line = polyline(model, edge, share * error, angle);
             used.fetch_add(line.as_ref().map_or(0, |line| line.points.len()), Ordering::Relaxed);
             line
         })
@@ -205,7 +207,7 @@ fn by_edge(divided: &BTreeSet<(u32, u32)>) -> Vec<(u32, Vec<usize>)> {
     all.chunk_by(|a, b| a.0 == b.0).map(|group| (group[0].0, group.iter().map(|c| c.1 as usize).collect())).collect()
 }
 
-/// Share of the deflection that the chords of each edge may use: the smallest share of its faces.
+/// Share of the chord error asked for that the chords of each edge may use: the smallest share of its faces.
 fn shares_of_edges(model: &Model) -> Vec<f64> {
     let mut shares = vec![1.0f64; model.edges.len()];
     for face in &model.faces {

@@ -8,7 +8,7 @@ fn triangles(threads: usize, deflection: f64, most_points: usize) -> Result<usiz
     let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     let limits = Limits { points: most_points, steps: MOST_STEPS };
-    let made = pool.install(|| tessellate(&model, deflection, 0.5, limits, &watch))?;
+    let made = pool.install(|| tessellate(&model, &ChordErrors::same(&model, deflection), 0.5, limits, &watch))?;
     Ok(made.faces.iter().map(|face| face.mesh.triangles.len()).sum())
 }
 
@@ -17,7 +17,8 @@ fn a_face_that_takes_too_many_steps_for_any_mesh_has_none_and_the_others_have() 
     let model = Model::read(CYLINDER, None).unwrap();
     let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
     let faults = |most_steps| {
-        let made = meshed(&model, 1e-6, 0.5, &AtomicUsize::new(0), most_steps, &watch).unwrap();
+        let made =
+            meshed(&model, &ChordErrors::same(&model, 1e-6), 0.5, &AtomicUsize::new(0), most_steps, &watch).unwrap();
         made.faces.into_iter().map(|face| face.fault).collect::<Vec<_>>()
     };
     assert_eq!(faults(MOST_STEPS), [None, None, None]);
@@ -44,7 +45,8 @@ fn a_triangle_that_gets_no_point_ends_the_work_soon() {
     // point, so that its triangle is not known as one of the border.
     let model = Model::read(include_bytes!("../../tests/touching.bin"), None).unwrap();
     let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
-    let made = tessellate(&model, 7e-3, 0.5, Limits { steps: 1_000_000, ..LIMITS }, &watch).unwrap();
+    let made = tessellate(&model, &ChordErrors::same(&model, 7e-3), 0.5, Limits { steps: 1_000_000, ..LIMITS }, &watch)
+        .unwrap();
     assert!(made.faces.iter().all(|face| face.fault != Some(Fault::TooMuchWork)));
     assert!(matches!(made.faces[22].fault, Some(Fault::Crossing(_))));
 }

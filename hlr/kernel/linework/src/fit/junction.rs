@@ -74,13 +74,12 @@ fn covered(routes: &[Route], changes: &[Change], accuracy: f64, contact: f64, vi
                     if lifted { touching(own, other, from, JUNCTION_ALONG * accuracy, accuracy) } else { None }
                 });
                 let Some((t, u)) = found else { continue };
-                // An outline that is touched beyond its end is extended to that place.
-                let reach = if crossed.is_none() && other.border == Border::Outline {
-                    JUNCTION_ALONG
-                } else {
-                    JUNCTION_OUTLINE
-                };
                 let Some(t) = own.ending(t, start) else { continue };
+                // An outline that is touched beyond its end is extended to that place. Where the visible line would draw
+                // back to it, the outline has been left out beside that line: neither would be drawn there.
+                let draws_back = ends.len() > 1 && own.visible == ((t > start) == (end_of_own == 0));
+                let extended = crossed.is_none() && other.border == Border::Outline && !draws_back;
+                let reach = if extended { JUNCTION_ALONG } else { JUNCTION_OUTLINE };
                 let moved = length(&minus(&own.at(t)[0], &own.at(start)[0]));
                 // What was left out of an outline runs beside the other line, before it or behind it.
                 let before = || view.depth(&other.in_space(u, view)) <= view.depth(&own.in_space(t, view)) + contact;

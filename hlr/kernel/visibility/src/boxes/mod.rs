@@ -7,7 +7,7 @@
 //! `meeting` which boxes of a few overlap others
 
 pub mod aabb;
-pub(crate) mod meeting;
+pub mod meeting;
 mod morton;
 pub(crate) mod pairs;
 pub mod tree;
