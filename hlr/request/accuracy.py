@@ -74,7 +74,7 @@ SPHERE_MESH = 256.0
 """Times: how much coarser the mesh of a sphere is of which only the outline is drawn. The outline is traced on the
 surface, where each chord of the mesh is halved up to six times: its own chord error is 4096 times smaller."""
 
-ALONE = 0.9
+ALONE = 0.86
 """Of the deflection: chord error of a B-rep part that is one solid and comes near no other. The rest is for what its
 lines are moved off it by (`OWN_LIFT`)."""
 

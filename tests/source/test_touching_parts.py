@@ -70,6 +70,11 @@ def test_instances_of_one_shape_have_one_mesh_and_the_finest_counts():
     assert len({len(part.triangles) for part in found.parts}) == 1
 
 
+def test_lines_of_a_sketch_touch_nothing():
+    found = meshed(shaft(0), cq.Edge.makeLine(cq.Vector(-20, 0, 15), cq.Vector(20, 0, 15)))
+    assert not found.touching.any()
+
+
 def test_faces_outside_a_solid_may_touch_one_another():
     assert meshed(*shaft(0).Faces()).touching.tolist() == [True]
 

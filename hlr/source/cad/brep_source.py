@@ -263,10 +263,12 @@ class BrepSource:
 
     def _touching(self, deflection: float) -> Bools:
         """(p,) which parts may touch another one, or themselves, as faces outside a solid may."""
-        may: Bools = self._prototypes.counts[self._prototype_numbers, 2] != 1
-        if len(self._parts) > 1:
+        faces, _, solids = self._prototypes.counts[self._prototype_numbers].T
+        faced = faces > 0  # Lines of annotations and sketches have no facets.
+        may: Bools = faced & (solids != 1)
+        if np.count_nonzero(faced) > 1:
             corners, _ = self._placed
-            may |= _kernel.boxes_near(corners, CONTACT * deflection)
+            may[faced] |= _kernel.boxes_near(corners[faced], CONTACT * deflection)
         return may
 
     def _touching_prototypes(self, touching: Bools) -> Bools:
