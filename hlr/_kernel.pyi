@@ -442,7 +442,6 @@ def outlined(
     on: TrueSurfaces,
     columns: tuple[Bytes, Ints, Ints, Bools, Ints],
     first: Ints,
-    mesh_errors: Floats,
     groups: Groups,
     convex: bool,
     kinds: tuple[Bools, Bools, int, int],
@@ -452,11 +451,10 @@ def outlined(
     """The image with these outlines.
 
     columns: class, part and group of each edge, and whether a curved surface may show its outline there; group of each
-    triangle. first (p,): the first face of each part; mesh_errors (p,): the chord error of its mesh, as a share of that
-    of the coarsest; convex: all is one convex body. kinds: (256,) by the class of an edge, whether it bounds faces, and
-    whether they join smoothly there; the class of outlines, and that of edges inside faces. lengths, model units, for
-    the coarsest mesh: how far points are moved beyond the triangles that stand out, at most, and off a face before a
-    line is compared with it. ValueError where they do not fit.
+    triangle. first (p,): the first face of each part; convex: all is one convex body. kinds: (256,) by the class of an
+    edge, whether it bounds faces, and whether they join smoothly there; the class of outlines, and that of edges inside
+    faces. lengths, model units: how far points are moved beyond the triangles that stand out, at most, and off a face
+    before a line is compared with it. ValueError where they do not fit.
     """
 
 _Vector = tuple[float, float, float]

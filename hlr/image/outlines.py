@@ -56,7 +56,7 @@ def outlined(image: Image, planner: Planner) -> Image:
 def _with_outlines(image: Image, surfaces: TrueSurfaces) -> Image:
     face = image.all_faces()
     deflection = image.placement.tolerances.deflection
-    facet, mesh = surfaces.coarsest * deflection, image.mesh()
+    mesh = image.mesh()
     on, found = _traced(image, mesh, surfaces, face, OUTLINE_CHORD * deflection)
     shown = _kernel.outlined(
         found,
@@ -64,12 +64,11 @@ def _with_outlines(image: Image, surfaces: TrueSurfaces) -> Image:
         on,
         (image.edge_kind, image.edge_part, image.edge_group, image.edge_curved, image.triangle_group),
         surfaces.first,
-        surfaces.mesh_errors / surfaces.coarsest,
         image.groups,
         image.convex,
         (_borders(), _tangent(), EdgeClass.OUTLINE, INTERIOR),
         image.camera.scaled(1.0),
-        (OUTLINE_SPARE * facet, OUTLINE_LIFT * facet, OWN_LIFT * facet),
+        (OUTLINE_SPARE * deflection, OUTLINE_LIFT * deflection, OWN_LIFT * deflection),
     )
     source = found.source
     return replace(

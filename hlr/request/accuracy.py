@@ -75,8 +75,8 @@ SPHERE_MESH = 256.0
 surface, where each chord of the mesh is halved up to six times: its own chord error is 4096 times smaller."""
 
 ALONE = 0.86
-"""Of the deflection: chord error of a B-rep part that is one solid and comes near no other. The rest is for what its
-lines are moved off it by (`OWN_LIFT`)."""
+"""Of the deflection: chord error of a B-rep part that is one solid and comes near no other. With more, outlines that
+touch others are seen beside them for longer than the accuracy."""
 
 TOUCHING = 0.5
 """Of the deflection: chord error of a B-rep part that may touch another. Two surfaces, one inside the other, are then
@@ -116,20 +116,18 @@ ROUNDING = 0.04
 OUTLINE_CHORD = 0.2
 """Of the deflection: chord error of the polyline of an outline."""
 
-OUTLINE_LIFT = 5.0
-"""Of the chord error of its part's mesh: the most an outline is moved off its surface before visibility is decided.
-Facets are off by one, those of OpenCASCADE's mesher by two to four."""
+OUTLINE_LIFT = 2.5
+"""Of the deflection: the most an outline is moved off its surface before visibility is decided. Facets are off by 0.5
+to 0.86, those of OpenCASCADE's mesher by two, the outline's chords by a fifth."""
 
-OUTLINE_SPARE = 0.6
-"""Of the chord error of its part's mesh: how far an outline is moved where no facet stands out beyond it. Its own
-chords are off by 0.2 to 0.4."""
+OUTLINE_SPARE = 0.3
+"""Of the deflection: how far an outline is moved where no facet stands out beyond it. Its own chords are off by 0.2."""
 
-OWN_LIFT = 3.0
-"""Of the chord error of its part's mesh: how far off its own face a line is compared with that face's triangles. They
-are off by one."""
+OWN_LIFT = 1.5
+"""Of the deflection: how far off its own face a line is compared with that face's triangles. They are off by one."""
 
-MOST_LIFT = 6.0
-"""Of the chord error of their parts' meshes: lines are moved off their surfaces by less than this."""
+MOST_LIFT = 3.0
+"""Of the deflection: lines are moved off their surfaces by less than this."""
 
 # Lines.
 

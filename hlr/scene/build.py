@@ -8,9 +8,9 @@ from time import perf_counter
 import numpy as np
 
 from hlr._kernel import Groups, MeshFacts, MeshScene, PartTables
-from hlr.common.types import Bools, Floats
+from hlr.common.types import Floats
 from hlr.errors import SourceError
-from hlr.request.accuracy import ALONE, REPEATED, TOUCHING
+from hlr.request.accuracy import REPEATED
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
@@ -67,7 +67,7 @@ def build(
         np.copyto(kind[: len(crease_kind)], crease_kind, where=crease_kind != INTERIOR)
         drawn = np.bincount(edge_part[crease_kind != INTERIOR], minlength=len(brep)).tolist()
     met = _searched(whole, found, groups, deflection, plan)
-    true, intersections = _true_surfaces(whole, found, meshed.touching), None
+    true, intersections = _true_surfaces(whole, found), None
     crossed = set() if met is None else self_intersecting_parts(met, group_part)
     parts = scene_parts(whole, doubled, found, mesh.offsets, drawn, crossed, meshed.surface_parts, on_cut)
     parts = parts.with_repeats(repeats.of)
@@ -192,8 +192,8 @@ def _sizes(found: MeshScene, groups: Groups, parts: int) -> Floats:
     return np.asarray(np.sqrt((span * span).sum(axis=1)))
 
 
-def _true_surfaces(whole: PartMeshes, found: MeshScene, touching: Bools) -> TrueSurfaces | None:
-    """The parameters of all parts' triangles; None where no part has a B-rep. touching (p,): of `Tessellation`."""
+def _true_surfaces(whole: PartMeshes, found: MeshScene) -> TrueSurfaces | None:
+    """The parameters of all parts' triangles; None where no part has a B-rep."""
     if whole.surfaces is None:
         return None
     tables = whole.tables
@@ -208,6 +208,5 @@ def _true_surfaces(whole: PartMeshes, found: MeshScene, touching: Bools) -> True
         planar=tables.face_planar,
         curved_faces=found.curved_faces,
         planar_faces=tables.planar_faces,
-        mesh_errors=np.where(touching, TOUCHING, ALONE) if len(touching) else np.full(len(tables), ALONE),
         surfaces=whole.surfaces,
     )

@@ -23,7 +23,6 @@ class TrueSurfaces:
     first (p,) the number of each part's first face; number (f,) of its surface in `surfaces`
     place (f, 3, 4) from the surface's frame into the model; inward (f,) bool; curved (f,) bool: may show an outline
     planar (f,) bool; curved_faces, planar_faces: how many are
-    mesh_errors (p,): the chord error of each part's mesh, as a share of the deflection
     """
 
     corner: Ints
@@ -36,13 +35,7 @@ class TrueSurfaces:
     planar: npt.NDArray[np.bool_]
     curved_faces: int
     planar_faces: int
-    mesh_errors: Floats
     surfaces: Surfaces
-
-    @property
-    def coarsest(self) -> float:
-        """The largest of `mesh_errors`."""
-        return float(self.mesh_errors.max())
 
     def of(self, wanted: npt.NDArray[np.bool_], face: Ints) -> _kernel.TrueSurfaces:
         """As the kernel takes them. wanted (f,) bool: faces whose surfaces are included; face (t,) of each triangle."""

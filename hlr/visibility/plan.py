@@ -65,8 +65,7 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
     )
     counts = visibility_input.counts()
     with planner.deciding():
-        coarsest = 1.0 if image.true_surfaces is None else image.true_surfaces.coarsest
-        near = visibility_input.coming_near(MOST_LIFT * coarsest * tolerances.deflection, CONTACT_SPARE)
+        near = visibility_input.coming_near(MOST_LIFT * tolerances.deflection, CONTACT_SPARE)
     facts = Facts(
         groups=counts.faced,
         culled=counts.culled,

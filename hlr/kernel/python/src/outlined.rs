@@ -70,7 +70,6 @@ pub fn outlined<'py>(
     on: &TrueSurfaces,
     columns: Columns<'py>,
     first: PyReadonlyArray1<'py, i32>,
-    mesh_errors: PyReadonlyArray1<'py, f64>,
     groups: &Groups,
     convex: bool,
     kinds: Kinds<'py>,
@@ -81,7 +80,7 @@ pub fn outlined<'py>(
     let (all, (triangle_face, ..)) = (reading.slices()?, places.slices()?);
     let (kind, part, group) = (slice(&columns.0, "kind")?, slice(&columns.1, "part")?, slice(&columns.2, "group")?);
     let (curved, triangle_group) = (slice(&columns.3, "curved")?, slice(&columns.4, "triangle_group")?);
-    let (first, mesh_errors) = (slice(&first, "first")?, slice(&mesh_errors, "mesh_errors")?);
+    let first = slice(&first, "first")?;
     // Outlines, moved off their bodies, may lie within another that comes so near.
     let (closed, near) = (&groups.0.cull[..], &groups.within(lengths[1])?[..]);
     let (border, tangent) = (slice(&kinds.0, "border")?, slice(&kinds.1, "tangent")?);
@@ -99,11 +98,6 @@ pub fn outlined<'py>(
     expect_below("edge of a border", outlines.grazing.iter().map(|g| g.edge as i32), all.edges.len())?;
     let crossed = outlines.grazing.iter().filter_map(|g| g.crossed).flatten();
     expect_below("triangles that cross", crossed, all.triangles.len())?;
-    expect_len("mesh_errors", mesh_errors.len(), first.len())?;
-    expect_below("part", part.iter().copied(), mesh_errors.len())?;
-    if mesh_errors.iter().any(|share| !(*share > 0.0 && *share <= 1.0)) {
-        return Err(PyValueError::new_err("mesh_errors must be above 0 and at most 1"));
-    }
     if first.first().is_none_or(|&face| face != 0) {
         return Err(PyValueError::new_err("first must begin with 0"));
     }
@@ -120,7 +114,6 @@ pub fn outlined<'py>(
         triangle_face,
         triangle_group,
         first,
-        mesh_errors,
         traced: &traced,
         closed,
         near,

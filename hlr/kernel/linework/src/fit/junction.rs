@@ -77,7 +77,7 @@ fn covered(routes: &[Route], changes: &[Change], accuracy: f64, contact: f64, vi
                 let Some(t) = own.ending(t, start) else { continue };
                 // An outline that is touched beyond its end is extended to that place. Where the visible line would draw
                 // back to it, the outline has been left out beside that line: neither would be drawn there.
-                let draws_back = ends.len() > 1 && own.visible == ((t > start) == (end_of_own == 0));
+                let draws_back = own.visible == ((t > start) == (end_of_own == 0));
                 let extended = crossed.is_none() && other.border == Border::Outline && !draws_back;
                 let reach = if extended { JUNCTION_ALONG } else { JUNCTION_OUTLINE };
                 let moved = length(&minus(&own.at(t)[0], &own.at(start)[0]));

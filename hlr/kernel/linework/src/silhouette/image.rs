@@ -24,8 +24,6 @@ pub struct Image<'a> {
     pub triangle_group: &'a [i32],
     /// The first face of each part.
     pub first: &'a [i32],
-    /// The chord error of each part's mesh, as a share of that of the coarsest.
-    pub mesh_errors: &'a [f64],
     /// Faces that have their outlines.
     pub traced: &'a [bool],
     /// Groups that are closed bodies.

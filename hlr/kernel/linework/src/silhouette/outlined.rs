@@ -12,8 +12,7 @@ use crate::lines::View;
 use hlr_brep::geometry::vector::{Vector, scaled, sub};
 use hlr_visibility::scan::stretches::Beside;
 
-/// How far points are moved: model units, for the coarsest of the parts' meshes.
-#[derive(Clone, Copy)]
+/// How far points are moved, model units.
 pub struct Lengths {
     /// Beyond the triangles that stand out at an outline, but at most so far in all.
     pub spare: f64,
@@ -26,11 +25,6 @@ impl Lengths {
     /// How far a point is moved where triangles stand out by `rise`.
     pub fn lift(&self, rise: f64) -> f64 {
         (rise + self.spare).min(self.most)
-    }
-
-    /// For a part with a finer mesh. share: its chord error, as a share of that of the coarsest.
-    fn of(&self, share: f64) -> Lengths {
-        Lengths { spare: share * self.spare, most: share * self.most, own: share * self.own }
     }
 }
 
@@ -55,7 +49,7 @@ pub fn outlined(
         let group = groups[line.face as usize];
         let closed = image.closed[group as usize];
         let side = if line.concave && !closed { -1.0 } else { 1.0 };
-        let (before, lengths) = (out.points.len() as i32, lengths.of(image.mesh_errors[part as usize]));
+        let before = out.points.len() as i32;
         for ((point, normal), &rise) in line.points.iter().zip(&line.normals).zip(&line.rise) {
             let (outward, distance) = (scaled(normal, side), lengths.lift(rise));
             out.points.push(*point);
@@ -104,7 +98,6 @@ fn groups(image: &Image) -> Vec<i32> {
 /// A border of a face that is seen nearly edge-on, as it is compared with that face.
 fn of_border(image: &Image, border: &Grazing, lengths: &Lengths) -> Stretch {
     let edge = border.edge as usize;
-    let lengths = lengths.of(image.mesh_errors[image.part[edge] as usize]);
     let closed = match border.crossed {
         Some(pair) => pair.iter().all(|&t| image.closed[image.triangle_group[t as usize] as usize]),
         None => image.closed[image.group[edge] as usize],
@@ -163,7 +156,6 @@ mod tests {
             triangle_group: &[0, 0],
             first: &[0],
             traced: &[true],
-            mesh_errors: &[1.0],
             closed: &[true],
             near: &[false],
             convex: false,

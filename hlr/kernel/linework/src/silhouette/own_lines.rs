@@ -124,7 +124,6 @@ mod tests {
             triangle_group: &[0, 0],
             first: &[0],
             traced: &[false; 4],
-            mesh_errors: &[1.0],
             closed: &[true],
             near: &[false],
             convex: false,
