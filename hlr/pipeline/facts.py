@@ -39,9 +39,11 @@ def note_touching(planner: Planner, scene: Scene, meshed: Tessellation) -> None:
     """State how many parts are meshed more finely, as they may touch others."""
     faces = scene.true_surfaces is not None
     touching = int(meshed.touching.sum())
-    facts = Facts(touching=touching, parts=len(scene.parts), faces=faces)
+    facts = Facts(touching=touching, through=len(scene.through_themselves), parts=len(scene.parts), faces=faces)
     planner.state(facts, "finer mesh where parts touch")
-    planner.spent("finer mesh where parts touch", touching_parts=touching)
+    # A model that is meshed anew has no more parts than before.
+    known = planner.cost("finer mesh where parts touch").get("touching_parts", 0)
+    planner.spent("finer mesh where parts touch", touching_parts=touching - known)
 
 
 def note_rescue(planner: Planner, scene: Scene, meshed: Tessellation) -> None:

@@ -82,11 +82,15 @@ def _fine(f: Facts, options: Options) -> Answer:
     return False, "one sphere: its outline is the only line, and is computed on the surface itself"
 
 
-def _touching(f: Facts, _o: Options) -> Answer:
+def _touching(f: Facts, options: Options) -> Answer:
     if not f.faces:
         return False, "a mesh is drawn as it is"
+    if f.touching and options.fill:
+        return True, "the light on filled faces changes from triangle to triangle"
+    if f.touching and f.parts > 1:
+        return True, f"{_count(f.touching, 'part')} may touch others{' or themselves' if f.through else ''}"
     if f.touching:
-        return True, f"{_count(f.touching, 'part')} may touch others" if f.parts > 1 else "its faces are not one solid"
+        return True, "its surface passes through itself" if f.through else "its faces are not one solid"
     return False, "no part comes near another" if f.parts > 1 else "one solid touches no other"
 
 

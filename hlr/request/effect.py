@@ -31,7 +31,8 @@ class Facts(NamedTuple):
     parts, groups  numbers of parts, and of groups: surfaces that the visibility pass treats as one
     curved, planar numbers of curved and of planar faces
     faces          the model has faces with equations: a B-rep
-    touching       number of parts that may touch others
+    touching       number of parts that are meshed as finely as those that may touch others
+    through        number of parts whose surfaces pass through themselves
     failed         number of faces that the kernel could not mesh
     repeated       two triangles of a part have the same corners, or two of its points the same place
     borders        number of border edges of meshes: sides that only one triangle has
@@ -58,6 +59,7 @@ class Facts(NamedTuple):
     planar: int = 0
     faces: bool = True
     touching: int = 0
+    through: int = 0
     failed: int = 0
     repeated: bool = False
     borders: int = 0

@@ -11,8 +11,11 @@ import pytest
 
 import hlr
 from hlr import _kernel
+from hlr.pipeline.facts import note_touching
 from hlr.pipeline.session import Session
 from hlr.request.accuracy import ALONE, TOUCHING
+from hlr.request.drawing_effects import drawing_effects
+from hlr.request.effect import Planner
 from hlr.source import open_source
 from support.at_size import AT_SIZE
 
@@ -26,6 +29,12 @@ def shaft(x: float) -> cq.Solid:
 def bend(x: float) -> cq.Solid:
     """A quarter of a ring, which bends both ways."""
     return cq.Solid.makeTorus(RADIUS, 3, cq.Vector(x, 0, 0))
+
+
+def through_itself() -> cq.Shape:
+    """A tube that bends so sharply that its wall passes through itself."""
+    path = cq.Workplane("XY").spline([(0, 0), (14.9, 8), (18.3, 16), (3.9, 24), (14.2, 32)])
+    return cq.Workplane("XZ").circle(2.9).sweep(path).val()
 
 
 def meshed(*solids):
@@ -86,9 +95,7 @@ def test_a_part_alone_is_meshed_alike_wherever_others_are():
 
 
 def test_a_surface_through_itself_is_meshed_as_finely_as_parts_that_touch():
-    path = cq.Workplane("XY").spline([(0, 0), (14.9, 8), (18.3, 16), (3.9, 24), (14.2, 32)])
-    tube = cq.Workplane("XZ").circle(2.9).sweep(path)
-    session = Session(tube, [], hlr.Options())
+    session = Session(through_itself(), [], hlr.Options())
     scene, found = session.scene_at(DEFLECTION)
     assert scene.through_themselves == {0} and found.touching.tolist() == [True]
     assert len(scene.triangles) > 1.2 * sum(len(p.triangles) for p in session.source.mesh(DEFLECTION, 0.5).parts)
@@ -108,6 +115,31 @@ def test_the_plan_says_how_many():
     assert decided(shaft(0), shaft(100)).reason == "no part comes near another"
     three = decided(shaft(0), shaft(20), shaft(100))
     assert three.on and three.reason == "2 parts may touch others" and three.counts == {"touching_parts": 2}
+
+
+def why(scene_of, **options):
+    decided = hlr.draw(scene_of, **options, **AT_SIZE).plan
+    return next((d.reason, d.counts["touching_parts"]) for d in decided if d.name == "finer mesh where parts touch")
+
+
+def test_the_plan_names_a_surface_through_itself():
+    far = shaft(0).moved(cq.Location(cq.Vector(300, 0, 0)))
+    assert why(through_itself()) == ("its surface passes through itself", 1)
+    assert why(cq.Compound.makeCompound([through_itself(), far])) == ("1 part may touch others or themselves", 1)
+
+
+def test_the_plan_says_that_filled_faces_need_it():
+    reason = "the light on filled faces changes from triangle to triangle"
+    assert why(shaft(0), fill=True) == (reason, 1)
+    assert why(cq.Compound.makeCompound([shaft(0), shaft(100)]), fill=True) == (reason, 2)
+
+
+def test_parts_of_a_model_that_is_meshed_twice_count_once():
+    session = Session(cq.Compound.makeCompound([shaft(0), shaft(20)]), [], hlr.Options())
+    planner = Planner(drawing_effects(), hlr.Options())
+    for deflection in (DEFLECTION, DEFLECTION / 2):
+        note_touching(planner, *session.scene_at(deflection))
+    assert planner.cost("finer mesh where parts touch") == {"touching_parts": 2}
 
 
 @pytest.mark.parametrize("shares", [[0.0], [1.5], [float("nan")], [0.5, 0.5], []])
