@@ -42,7 +42,7 @@ from hlr.scene.build import build
 from hlr.scene.scene import Scene
 from hlr.scene.scene_parts import OnCut
 from hlr.source.bounds import diagonal
-from hlr.source.model import Appearance, PartMesh, Source, Tessellation
+from hlr.source.model import Appearance, PartMesh, Source, Tessellation, finer_mesh_of
 from hlr.source.selection import open_selected
 from hlr.visibility.plan import Plan, decide
 from hlr.visibility.segments import solve
@@ -130,11 +130,10 @@ class Session:
 
     def _meshed(self, deflection: float, angle: float, finer: Collection[str]) -> Tessellation:
         """finer: names of parts meshed as finely as those that touch others, where the source knows of that."""
-        mesh_finer = getattr(self.source, "mesh_finer", None) if finer else None
+        mesh_finer = finer_mesh_of(self.source) if finer else None
         if mesh_finer is None:
             return self.source.mesh(deflection, angle, self.progress)
-        meshed: Tessellation = mesh_finer(finer, deflection, angle, self.progress)
-        return meshed
+        return mesh_finer(finer, deflection, angle, self.progress)
 
     def scene_by_size(self) -> Scene:
         """The scene for a purpose without a drawing: meshed at a two-thousandth of its size.

@@ -191,7 +191,8 @@ class Source(Protocol):
 
     Any object that follows this protocol can be drawn. Beyond it, a source may have two methods that save work:
     `reach(right, up)`, (2, 2): from where to where the model extends along two directions of length 1, or a little
-    further; and `is_one_sphere()`: there is one part, and it is one whole sphere.
+    further; and `is_one_sphere()`: there is one part, and it is one whole sphere. Beside its `mesh`, a class may define
+    `mesh_finer(names, deflection, angle, progress)`: it meshes parts of these names more finely.
     """
 
     @property
@@ -238,6 +239,17 @@ class Source(Protocol):
 
 MEMBERS = tuple(name for name in vars(Source) if not name.startswith("_"))
 """The names that the protocol `Source` asks for."""
+
+
+def finer_mesh_of(source: Source) -> Callable[..., Tessellation] | None:
+    """The method `mesh_finer` of a source; None where its `mesh` is of a class, or of an object, that defines none.
+
+    Any other `mesh_finer` is inherited, or of a source that this one stands for: it knows nothing of this `mesh`.
+    """
+    for place in (getattr(source, "__dict__", {}), *map(vars, type(source).__mro__)):
+        if "mesh" in place:
+            return source.mesh_finer if "mesh_finer" in place else None  # type: ignore[attr-defined]
+    return getattr(source, "mesh_finer", None)
 
 
 def is_source(thing: object) -> bool:
