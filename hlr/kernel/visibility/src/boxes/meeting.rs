@@ -20,7 +20,7 @@ pub fn boxes_meet(low: &[[f64; 3]], high: &[[f64; 3]]) -> Option<Vec<bool>> {
     let tree = Tree::new(&items);
     let mut meets = vec![false; low.len()];
     for (k, &i) in used.iter().enumerate() {
-        tree.query(&boxes[k], |other| meets[i] |= other as usize != k);
+        meets[i] = tree.any(&boxes[k], |other| other as usize != k);
     }
     Some(meets)
 }

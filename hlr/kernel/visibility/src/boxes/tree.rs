@@ -52,8 +52,17 @@ impl Tree {
 
     /// Calls `visit` for every item whose box overlaps `query`.
     pub fn query(&self, query: &Aabb, mut visit: impl FnMut(u32)) {
+        self.any(query, |item| {
+            visit(item);
+            false
+        });
+    }
+
+    /// Whether `wanted` is true of an item whose box overlaps `query`. No more is searched after the first.
+    #[inline]
+    pub fn any(&self, query: &Aabb, mut wanted: impl FnMut(u32) -> bool) -> bool {
         if self.nodes.is_empty() {
-            return;
+            return false;
         }
         let mut stack = [0u32; DEEPEST];
         let mut top = 1;
@@ -70,12 +79,13 @@ impl Tree {
                 top += 2;
             } else {
                 for (bounds, item) in self.of_node(node) {
-                    if bounds.overlaps(query) {
-                        visit(*item);
+                    if bounds.overlaps(query) && wanted(*item) {
+                        return true;
                     }
                 }
             }
         }
+        false
     }
 
     pub(super) fn of_node(&self, node: &Node) -> &[Item] {
@@ -152,6 +162,25 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_search_for_any_ends_with_the_first_that_is_wanted() {
+        let nested = |i: u32| (Aabb { low: [-(i as i32); 3], high: [i as i32; 3] }, i);
+        let tree = Tree::new(&(0..1000).map(nested).collect::<Vec<Item>>());
+        let all = Aabb { low: [-1000; 3], high: [1000; 3] };
+        let mut visited = 0;
+        let mut any = |wanted: bool| {
+            visited = 0;
+            let found = tree.any(&all, |_| {
+                visited += 1;
+                wanted
+            });
+            (found, visited)
+        };
+        assert_eq!(any(true), (true, 1));
+        assert_eq!(any(false), (false, 1000));
+        assert!(!Tree::new(&[]).any(&all, |_| true));
     }
 
     #[test]
