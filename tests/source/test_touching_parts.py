@@ -26,8 +26,8 @@ def shaft(x: float) -> cq.Solid:
     return cq.Solid.makeCylinder(RADIUS, 30, cq.Vector(x, 0, 0))
 
 
-def bend(x: float) -> cq.Solid:
-    """A quarter of a ring, which bends both ways."""
+def ring(x: float) -> cq.Solid:
+    """A ring, which bends both ways."""
     return cq.Solid.makeTorus(RADIUS, 3, cq.Vector(x, 0, 0))
 
 
@@ -58,7 +58,7 @@ def test_only_parts_that_come_near_others_are_meshed_finely():
     assert fine < errors[2] <= coarse * 1.001
 
 
-@pytest.mark.parametrize("make", [shaft, bend])
+@pytest.mark.parametrize("make", [shaft, ring])
 def test_a_solid_alone_has_fewer_triangles(make):
     alone, beside = meshed(make(0)), meshed(make(0), make(20))
     assert not alone.touching.any() and beside.touching.all()
