@@ -44,6 +44,29 @@ fn nearest(x: f64) -> i32 {
 impl Grid {
     /// The finest grid that holds every point; None where a coordinate is not finite.
     pub fn around(points: &[[f64; 3]]) -> Option<Grid> {
+        let (centre, half) = Grid::extent(points)?;
+        Some(Grid {
+            centre,
+            scale_xy: power_of_two_scale(half[0].max(half[1]), XY_LIMIT),
+            scale_z: power_of_two_scale(half[2], Z_LIMIT),
+        })
+    }
+
+    /// The same with one step along all axes: the coarser of the two, of axes along which there is any extent.
+    pub fn uniform_around(points: &[[f64; 3]]) -> Option<Grid> {
+        let (centre, half) = Grid::extent(points)?;
+        let (across, deep) = (half[0].max(half[1]), half[2]);
+        let scales = [(across, XY_LIMIT), (deep, Z_LIMIT)].map(|(half, limit)| power_of_two_scale(half, limit));
+        let scale = match scales {
+            [xy, _] if deep <= 0.0 => xy,
+            [_, z] if across <= 0.0 => z,
+            [xy, z] => xy.min(z),
+        };
+        Some(Grid { centre, scale_xy: scale, scale_z: scale })
+    }
+
+    /// The middle of the points, and how far they reach from there; None where a coordinate is not finite.
+    fn extent(points: &[[f64; 3]]) -> Option<([f64; 3], [f64; 3])> {
         let mut low = [f64::INFINITY; 3];
         let mut high = [f64::NEG_INFINITY; 3];
         for p in points {
@@ -64,14 +87,7 @@ impl Grid {
             centre[k] = low[k] * 0.5 + high[k] * 0.5;
             half[k] = (high[k] - centre[k]).max(centre[k] - low[k]);
         }
-        if !half.iter().all(|h| h.is_finite()) {
-            return None;
-        }
-        Some(Grid {
-            centre,
-            scale_xy: power_of_two_scale(half[0].max(half[1]), XY_LIMIT),
-            scale_z: power_of_two_scale(half[2], Z_LIMIT),
-        })
+        half.iter().all(|h| h.is_finite()).then_some((centre, half))
     }
 
     pub fn snap(&self, p: &[f64; 3]) -> Point {
@@ -90,12 +106,6 @@ impl Grid {
             scale_z *= 0.5;
         }
         Grid { scale_z, ..self }
-    }
-
-    /// The same step along all axes: the coarser of the two.
-    pub fn uniform(self) -> Grid {
-        let scale = self.scale_xy.min(self.scale_z);
-        Grid { scale_xy: scale, scale_z: scale, ..self }
     }
 
     pub fn unsnap(&self, p: &Point) -> [f64; 3] {
@@ -136,6 +146,18 @@ mod tests {
                 assert_eq!(f64::from(s[k]) / scale + grid.centre[k], p[k]);
             }
         }
+    }
+
+    #[test]
+    fn a_uniform_grid_is_as_fine_where_all_points_lie_in_a_plane_or_a_line() {
+        for (far, least) in [([1e-3, 2e-3, 0.0], 1 << 29), ([0.0, 0.0, 1e-3], 1 << 28), ([1e-3, 0.0, 1e-3], 1 << 28)] {
+            let grid = Grid::uniform_around(&[[0.0; 3], far]).unwrap();
+            assert_eq!(grid.scale_xy, grid.scale_z);
+            let reach = grid.snap(&far);
+            assert!((0..3).any(|k| reach[k] >= least) && reach.iter().all(|c| c.abs() < 1 << 30), "{far:?} {reach:?}");
+        }
+        assert_eq!(Grid::uniform_around(&[[5.0; 3]]).unwrap().snap(&[5.0; 3]), [0; 3]);
+        assert!(Grid::uniform_around(&[[f64::NAN, 0.0, 0.0]]).is_none());
     }
 
     #[test]

@@ -49,7 +49,7 @@ impl Case {
         let points = match &small {
             Some(small) => small.iter().map(|p| p.map(|c| c * STEP)).collect(),
             None => {
-                let grid = Grid::around(&exact)?.uniform();
+                let grid = Grid::uniform_around(&exact)?;
                 exact.repeat(groups).iter().map(|p| grid.snap(p)).collect()
             }
         };

@@ -59,7 +59,7 @@ pub fn behind(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync)
         })
         .collect();
     let ends: Vec<Vector> = found.iter().flat_map(|(.., place)| place.ends.map(|[x, y]| [x, y, 0.0])).collect();
-    let Some(grid) = Grid::around(&ends).map(Grid::uniform) else { return Vec::new() };
+    let Some(grid) = Grid::uniform_around(&ends) else { return Vec::new() };
     let mut walls = Sets::new(model.faces.len());
     for (_, wall, border, _) in &found {
         if let Border::Within(other) = border {

@@ -18,6 +18,7 @@
 //! 4. `trace`    joins them into curves, divided where the face, the edge or the sign of the curvature changes,
 //!    `split`    and where the image of a curve would lie on itself
 //! 5. `curve`    a circle where that is exact, else cubic pieces through the points with their tangents
+//!    `facing`   which of them face one another, where a body touches itself
 //! 6. `outlined` adds them to the `image` as edges, and `own_lines` where edges are compared with their own faces
 //! ```
 //!
@@ -31,6 +32,7 @@ mod contour;
 mod crossed;
 pub(crate) mod curve;
 mod face;
+mod facing;
 pub mod grazing;
 pub mod image;
 pub mod outlined;

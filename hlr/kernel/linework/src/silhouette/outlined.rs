@@ -4,6 +4,7 @@
 //! by a little more than that before (`lift`): its own facets are then beside it and cannot hide it. Where edges and
 //! outlines lie when they are compared with their own faces is worked out in `own_lines`.
 
+use super::facing::facing;
 use super::grazing::Grazing;
 use super::image::{Classes, Edge, Image, Outlined};
 use super::own_lines::{self, Stretch};
@@ -39,9 +40,14 @@ pub fn outlined(
     let traced: usize = lines.iter().map(|line| line.points.len()).sum();
     // A stretch of an edge, or of an outline, may need a line off its face and one in its place.
     let stretches = traced + grazing.len();
-    let (mut out, (groups, sheet)) = rayon::join(
+    let (mut out, (groups, sheet, facing)) = rayon::join(
         || Outlined::of(image, traced + 4 * stretches, traced + 2 * stretches),
-        || (groups(image), own_lines::sheets(image, classes)),
+        || {
+            let groups = groups(image);
+            let facing =
+                if image.convex { Vec::new() } else { facing(lines, &groups, image.closed, &image.view, lengths.most) };
+            (groups, own_lines::sheets(image, classes), facing)
+        },
     );
     let mut beyond = Vec::new();
     for (number, line) in (0..).zip(lines) {
@@ -81,7 +87,7 @@ pub fn outlined(
             lift: [[0.0; 3]; 2],
             beside: Beside::Unknown as u8,
             dented: false,
-            replaced: image.near[out.group[e] as usize],
+            replaced: image.near[out.group[e] as usize] || facing.get(e - first) == Some(&true),
         }));
         own_lines::add(&mut out, image, classes, sheet, &stretches);
     }

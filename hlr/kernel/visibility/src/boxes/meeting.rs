@@ -10,7 +10,7 @@ pub fn boxes_meet(low: &[[f64; 3]], high: &[[f64; 3]]) -> Option<Vec<bool>> {
     let finite = |i: &usize| low[*i].iter().chain(&high[*i]).all(|c| c.is_finite());
     let used: Vec<usize> = (0..low.len()).filter(finite).collect();
     let corners: Vec<[f64; 3]> = used.iter().flat_map(|&i| [low[i], high[i]]).collect();
-    let grid = Grid::around(&corners)?.uniform();
+    let grid = Grid::uniform_around(&corners)?;
     // One step wider on each side, to cover the rounding.
     let boxes: Vec<Aabb> = used
         .iter()
@@ -23,4 +23,21 @@ pub fn boxes_meet(low: &[[f64; 3]], high: &[[f64; 3]]) -> Option<Vec<bool>> {
         meets[i] = tree.any(&boxes[k], |other| other as usize != k);
     }
     Some(meets)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_boxes_in_one_plane_meet_where_they_overlap_alone() {
+        let low = |x: f64| [x, 0.0, 3.0];
+        let high = |x: f64| [x + 0.1, 0.1, 3.0];
+        let found = |starts: &[f64]| {
+            let [low, high] = [low, high].map(|end| starts.iter().map(|&x| end(x)).collect::<Vec<_>>());
+            boxes_meet(&low, &high).unwrap()
+        };
+        assert_eq!(found(&[0.0, 0.2, 0.4]), [false; 3]);
+        assert_eq!(found(&[0.0, 0.05, 0.4]), [true, true, false]);
+    }
 }

@@ -55,7 +55,7 @@ pub fn met(
     itself: &[bool],
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Option<Met> {
-    let grid = Grid::around(points)?.uniform();
+    let grid = Grid::uniform_around(points)?;
     let points: Vec<_> = points.par_iter().with_min_len(FEW_POINTS).map(|p| grid.snap(p)).collect();
     let clashes = Surfaces { points: &points, triangles, group, itself, planar }.clashes(stopped);
     let (points, ends) = weld(&clashes.found);

@@ -46,6 +46,9 @@ pub struct OwnFaces<'a> {
 /// in front of it; if they lie in front of it elsewhere, they really hide it.
 const EDGE_ON: f64 = 0.5;
 
+/// Cosine of the angle between the normal of an outline and that of a polygon that faces it: less than this.
+const FACING: f64 = -0.5;
+
 const VISIBLE: u8 = Beside::Visible as u8;
 const HIDDEN: u8 = Beside::Hidden as u8;
 
@@ -234,10 +237,14 @@ impl OwnFaces<'_> {
     /// from polygons seen at a large angle to polygons seen edge-on: one of the two ways may have a gap there, the other
     /// has none.
     fn asked<A: Arithmetic>(&self, mesh: &Mesh, exact: &ExactQuery, stretch: usize) -> Option<Vec<Segment>> {
-        let delta = self.delta(mesh, self.stretches.edge[stretch] as usize);
+        let slant = self.slant(mesh);
+        let of_others = self.delta(mesh, self.stretches.edge[stretch] as usize);
+        let facing = |t: usize| self.faces(mesh, stretch, t);
+        let delta = |t: usize| if facing(t) { slant.delta_of_itself(t) } else { of_others(t) };
         // Of each polygon the ends of the stretch, and whether they differ between the two ways.
         let mut found: Vec<(usize, Ends, bool)> = Vec::new();
         exact.in_front(exact.tree(), self.reach(mesh, stretch), |t| match self.off(mesh, stretch, t) {
+            Some(_) if facing(t) => found.extend(self.plain(mesh, stretch, t).map(|ends| (t, ends, false))),
             Some(ends) => found.push((t, ends, !self.moved(mesh, stretch, t))),
             None => found.extend(self.plain(mesh, stretch, t).map(|ends| (t, ends, false))),
         });
@@ -292,6 +299,31 @@ impl OwnFaces<'_> {
     /// Whether a stretch has to be moved off the face of this polygon of its own.
     fn moved(&self, mesh: &Mesh, stretch: usize, t: usize) -> bool {
         self.stretches.dented[stretch] || self.edge_on(mesh, t)
+    }
+
+    /// Whether a line of its own stands for the stretch in its true place: an outline that may lie where a body touches
+    /// its face.
+    pub fn is_replaced(&self, stretch: usize) -> bool {
+        self.stretches.line[stretch] != self.stretches.edge[stretch]
+    }
+
+    /// Whether a polygon of its own closed body faces an outline, across the gap that the outline is moved into. The
+    /// faces at the outline do not, however their triangles lie.
+    pub fn faces(&self, mesh: &Mesh, stretch: usize, t: usize) -> bool {
+        let (edge, group) = (self.stretches.edge[stretch] as usize, mesh.triangle_group[t]);
+        if mesh.edge_group[edge] != group
+            || !mesh.groups[group as usize].cull
+            || !self.is_replaced(stretch)
+            || !mesh.incident(edge).is_empty()
+        {
+            return false;
+        }
+        let middle = |(a, b): Ends| [0, 1].map(|k| f64::from(a[k]) + f64::from(b[k]));
+        let from = middle(mesh.ends(self.stretches.line[stretch] as usize));
+        let to = middle(mesh.ends(self.stretches.off[self.stretches.faces(stretch).start] as usize));
+        let (outward, normal) = ([to[0] - from[0], to[1] - from[1]], self.slant(mesh).normal(t));
+        let length = (outward[0] * outward[0] + outward[1] * outward[1]).sqrt();
+        normal[0] * outward[0] + normal[1] * outward[1] < FACING * length
     }
 
     fn edge_on(&self, mesh: &Mesh, t: usize) -> bool {

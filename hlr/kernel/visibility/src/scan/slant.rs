@@ -28,12 +28,19 @@ pub struct Slant<'a> {
 impl Slant<'_> {
     /// The cosine of the angle between the line of sight and the normal of a polygon.
     pub fn facing(&self, t: usize) -> f64 {
+        self.normal(t)[2].abs()
+    }
+
+    /// The unit normal of a polygon, outward of a closed body: x right, y up, z toward the viewer.
+    pub fn normal(&self, t: usize) -> [f64; 3] {
         let (p, q, r) = self.mesh.corners(t);
-        let place = |p: &Point| [f64::from(p[0]), f64::from(p[1]), f64::from(p[2]) / self.depth_scale];
+        // Depth grows away from the viewer.
+        let place = |p: &Point| [f64::from(p[0]), f64::from(p[1]), -f64::from(p[2]) / self.depth_scale];
         let (p, q, r) = (place(p), place(q), place(r));
         let (u, v) = ([0, 1, 2].map(|k| q[k] - p[k]), [0, 1, 2].map(|k| r[k] - p[k]));
         let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-        n[2].abs() / (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt().max(f64::MIN_POSITIVE)
+        let length = (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt().max(f64::MIN_POSITIVE);
+        n.map(|c| c / length)
     }
 
     /// How far an edge is moved toward the viewer before it is compared with this polygon alone.
@@ -44,8 +51,18 @@ impl Slant<'_> {
         if delta == 0 || group == drawn_group {
             return delta;
         }
+        self.slanted(delta, t)
+    }
+
+    /// The same for a polygon of the edge's own group, where the body touches itself.
+    pub fn delta_of_itself(&self, t: usize) -> i64 {
+        let group = &self.mesh.groups[self.mesh.triangle_group[t] as usize];
+        self.slanted(group.delta.min(group.cap), t)
+    }
+
+    fn slanted(&self, delta: i64, t: usize) -> i64 {
         let slanted = (delta as f64 * CONTACT_AT_RIGHT_ANGLES / self.facing(t).max(LEAST)) as i64;
-        slanted.min(self.mesh.groups[group as usize].cap).max(delta)
+        slanted.min(self.mesh.groups[self.mesh.triangle_group[t] as usize].cap).max(delta)
     }
 
     /// The most that `delta` may be.

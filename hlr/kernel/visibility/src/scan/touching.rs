@@ -1,8 +1,9 @@
-//! Outlines along which another body touches their face: two rollers side by side.
+//! Outlines along which another body touches their face: two rollers side by side, or the next turn of a spring.
 //!
 //! An outline is moved off its face before it is compared with any polygon. Where another body touches the face there,
 //! it is moved into that body, which then hides all of it, however short the way. So the hidden ones of these are
-//! compared once more, in their true place, with all polygons but those of their own faces (`own_faces`).
+//! compared once more, in their true place, with all polygons but those of their own faces (`own_faces`). Where a body
+//! touches itself, those polygons count as another body's that face the outline (`OwnFaces::faces`).
 //!
 //! ```text
 //!       sight |  |
@@ -20,8 +21,8 @@ use super::invisibility::{Piece, State};
 use super::mesh::Mesh;
 use super::own_faces::OwnFaces;
 
-/// The outlines, each as its stretches, that are hidden in part and lie at polygons of other groups. near: per group,
-/// whether others come near it; pieces ascend by edge.
+/// The outlines, each as its stretches, that are hidden in part and lie at polygons of other groups, or at polygons of
+/// their own that face them. near: per group, whether others come near it; pieces ascend by edge.
 pub fn touching(
     mesh: &Mesh,
     own: &OwnFaces,
@@ -30,9 +31,6 @@ pub fn touching(
     pieces: &[Piece],
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Vec<Range<usize>> {
-    if !near.contains(&true) {
-        return Vec::new();
-    }
     let is_near = |group: i32| near.get(group as usize) == Some(&true);
     let hidden = |edge: u32| {
         let first = pieces.partition_point(|p| p.edge < edge);
@@ -41,7 +39,7 @@ pub fn touching(
     let asked = |run: &Range<usize>| {
         let edge = own.stretches.edge[run.start];
         let is_outline = mesh.incident(edge as usize).is_empty();
-        is_outline && is_near(mesh.edge_group[edge as usize]) && !exact.leaves_out(edge) && hidden(edge as u32)
+        is_outline && own.is_replaced(run.start) && !exact.leaves_out(edge) && hidden(edge as u32)
     };
     let outlines: Vec<Range<usize>> = own.stretches.runs().into_iter().filter(asked).collect();
     if outlines.is_empty() {
@@ -54,7 +52,7 @@ pub fn touching(
             let mut found = false;
             exact.tree().query(&own.reach(mesh, stretch), |t| {
                 let other = mesh.triangle_group[t as usize];
-                found |= other != group && is_near(other);
+                found |= if other == group { own.faces(mesh, stretch, t as usize) } else { is_near(other) };
             });
             found
         })
