@@ -140,6 +140,9 @@ class Groups:
     def unsound(self, which: Bools) -> Groups:
         """These groups where those in `which` (g,) pass through themselves: they are neither sound nor culled."""
 
+    def with_crossing(self, pairs: Ints) -> Groups:
+        """These groups, of which these pairs (n, 2) have intersection lines."""
+
     def meeting(self) -> int:
         """How many groups have a box that comes near that of another; no other group may touch one."""
 

@@ -38,6 +38,7 @@ class SceneEdges:
         first = np.int32(len(self.points))
         self.points = np.concatenate([self.points, met.points])
         pair = met.group[:, 0].astype(np.int64) << 32 | met.group[:, 1]
+        self.groups = self.groups.with_crossing(met.group)
         self._add(met.edges + first, group_part[met.group].min(axis=1), pair, tight=True)
         kinds = np.full(len(met.edges), EdgeClass.INTERSECTION, np.uint8)
         self.kind = np.concatenate([self.kind, kinds])

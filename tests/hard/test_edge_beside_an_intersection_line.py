@@ -24,9 +24,6 @@ DEPTHS = [0.2, 0.6, 1.2, 1.6, 2.0, 2.4]
 """Accuracies."""
 DEEP = 20.0
 """Accuracies: nobody takes that for a contact."""
-LINED = [0.2, 1.2, 1.6, 2.0, 2.4]
-"""Accuracies at which some line is seen wherever the parts meet. Between these, at 0.6, there is no intersection line,
-and an edge is hidden beside an outline, where the wall is seen nearly edge-on."""
 MOST_MISSED = 0.2
 """Millimetres."""
 VIEWS = ["front", "top", "iso", (1, -2, 0.3), (2, -1, 1.2), (1, 1, 3)]
@@ -106,7 +103,7 @@ def test_no_line_runs_beside_another(model, depths):
 def test_a_line_is_seen_wherever_a_deep_foot_has_one(model):
     wanted = {view: visible_segments(drawn(model(DEEP * ACCURACY), view), {"intersection"}) for view in VIEWS}
     assert sum(len(segments) > 0 for segments in wanted.values()) >= 3
-    for depths in LINED:
+    for depths in DEPTHS:
         shape = model(depths * ACCURACY)
         for view, segments in wanted.items():
             if len(segments):

@@ -47,6 +47,12 @@ pub const FLUSH: f64 = 0.25;
 /// much, and one accuracy; the rest is for surfaces seen obliquely. What goes deeper is an intersection, with a line: for
 /// its own edges are hidden where they are seen at a slant.
 pub const CONTACT_AT_RIGHT_ANGLES: f64 = 0.4;
+/// Of the contact depth: an edge that lies less deep beneath a surface, at right angles to it, touches the surface and is
+/// seen. What goes less deep than `CONTACT_AT_RIGHT_ANGLES` has no line of its own, and the chords of the edge and of the
+/// surface may be deeper by as much.
+pub const TOUCHING_AT_RIGHT_ANGLES: f64 = 0.8;
+/// The same where both parts have an intersection line somewhere: it and the edge would often be drawn side by side.
+pub const TOUCHING_BESIDE_A_LINE: f64 = 0.45;
 /// Of the contact depth: what one face of a solid may dip into another face of the same solid. On sound solids facets
 /// cross by a fifth of a deflection at most.
 pub const CONTACT_OF_ONE_SOLID: f64 = 0.1;

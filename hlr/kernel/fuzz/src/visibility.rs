@@ -41,6 +41,7 @@ pub fn check(scene: &Scene) {
         offsets: &scene.offsets,
         incident: &scene.incident,
         edge_group: &scene.edge_group,
+        crossing: &[],
         role: &scene.role,
         groups: &groups,
     };

@@ -86,6 +86,7 @@ pub fn bodies(tables: &Tables, facts: &Facts, part_of: &[i32], curved: &[bool]) 
         closed,
         low: found.low,
         high: found.high,
+        crossing: Vec::new(),
     };
     Bodies { group_of, part_of, groups: Arc::new(groups), turned, welded }
 }

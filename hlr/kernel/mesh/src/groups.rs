@@ -24,6 +24,8 @@ pub struct Groups {
     /// Its box; the lower corner is beyond the upper one where it is empty.
     pub low: Vec<Vec3>,
     pub high: Vec<Vec3>,
+    /// Pairs of groups that have an intersection line: the lower number first, each pair once, ascending. No column.
+    pub crossing: Vec<[i32; 2]>,
 }
 
 impl Groups {
@@ -77,6 +79,14 @@ impl Groups {
             (out.closed[g], out.cull[g]) = (false, false);
         }
         out
+    }
+
+    /// These groups, of which these pairs have intersection lines.
+    pub fn with_crossing(&self, pairs: &[[i32; 2]]) -> Groups {
+        let mut crossing: Vec<[i32; 2]> = pairs.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+        crossing.sort_unstable();
+        crossing.dedup();
+        Groups { crossing, ..self.clone() }
     }
 
     /// These groups where some pass through themselves: they are neither sound nor culled.

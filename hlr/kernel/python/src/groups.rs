@@ -62,6 +62,13 @@ arrays! { Groups {
         self.changed(&which, Columns::unsound)
     }
 
+    /// These groups, of which these pairs have intersection lines.
+    fn with_crossing(&self, pairs: PyReadonlyArray2<'_, i32>) -> PyResult<Groups> {
+        let pairs = table::<i32, 2>(&pairs, "pairs")?;
+        expect_below("pairs", pairs.as_flattened().iter().copied(), self.0.len())?;
+        Ok(Groups(Arc::new(self.0.with_crossing(pairs))))
+    }
+
     /// How many groups have a box that comes near that of another.
     fn meeting(&self) -> PyResult<usize> {
         Ok(self.within(0.0)?.into_iter().filter(|&meets| meets).count())

@@ -144,6 +144,7 @@ pub fn visibility<'py>(
         edge_group: slice(&of.1, "edge")?,
         role: &input.role,
         groups: &told,
+        crossing: input.crossing(),
     };
     expect_len("projected", scene.points.len(), all.points.len())?;
     expect_len("groups of triangles", scene.triangle_group.len(), all.triangles.len())?;

@@ -176,6 +176,11 @@ impl VisibilityInput {
         self.groups.iter().map(|group| Group { cap: 0.0, ..*group }).collect()
     }
 
+    /// Pairs of groups that have an intersection line; of an input that was given, none.
+    pub(super) fn crossing(&self) -> &[[i32; 2]] {
+        self.view.as_ref().map_or(&[], |view| &view.groups.crossing)
+    }
+
     fn of_view(&self) -> PyResult<&View> {
         self.view.as_ref().ok_or_else(|| PyValueError::new_err("this input was not decided for a view"))
     }

@@ -142,6 +142,7 @@ fn main() {
             offsets: &t.offsets,
             incident: &t.incident,
             edge_group: &edge_part,
+            crossing: &[],
             role: &role,
             groups: &groups,
         };

@@ -158,6 +158,7 @@ pub(super) mod tests {
             extent: vec![1.0; N],
             low: corners.map(|c| c[0]).to_vec(),
             high: corners.map(|c| c[1]).to_vec(),
+            crossing: Vec::new(),
         }
     }
 

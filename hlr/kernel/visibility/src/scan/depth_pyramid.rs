@@ -333,6 +333,7 @@ mod tests {
             offsets: &offsets,
             incident: &incident,
             edge_group: &edge_group,
+            crossing: &[],
             role: &vec![0; edges.len()],
             groups: vec![SnappedGroup { cull: false, sound: true, delta, cap: delta, tight: false }; rectangles.len()],
         };

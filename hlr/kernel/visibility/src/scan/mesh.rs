@@ -35,6 +35,8 @@ pub struct Mesh<'a> {
     pub edge_group: &'a [i32],
     pub role: &'a [u8],
     pub groups: Vec<SnappedGroup>,
+    /// Pairs of groups that have an intersection line: the lower number first, ascending.
+    pub crossing: &'a [[i32; 2]],
 }
 
 impl Mesh<'_> {
@@ -58,6 +60,11 @@ impl Mesh<'_> {
 
     pub fn incident(&self, edge: usize) -> &[i32] {
         &self.incident[self.offsets[edge] as usize..self.offsets[edge + 1] as usize]
+    }
+
+    /// Whether two groups have an intersection line.
+    pub fn crosses(&self, a: i32, b: i32) -> bool {
+        self.crossing.binary_search(&[a.min(b), a.max(b)]).is_ok()
     }
 
     /// How far a drawn edge is moved toward the viewer before it is compared with another group.

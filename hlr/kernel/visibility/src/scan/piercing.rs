@@ -100,7 +100,7 @@ pub fn piercings<A: Arithmetic>(
                         return;
                     }
                     let delta = mesh.delta(own, other as i32);
-                    let reach = Aabb::of(&[a, b]).toward_viewer(Slant::most(delta));
+                    let reach = Aabb::of(&[a, b]).toward_viewer(slant.most_of_group(own, other as i32));
                     trees[other as usize].query(&reach, |t| {
                         tests += 1;
                         let Some(cover) = mesh.cover::<A>(t as usize) else { return };

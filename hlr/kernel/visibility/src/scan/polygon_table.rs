@@ -198,6 +198,7 @@ mod tests {
             offsets: &[0],
             incident: &[],
             edge_group: &[],
+            crossing: &[],
             role: &[],
             groups: Vec::new(),
         };

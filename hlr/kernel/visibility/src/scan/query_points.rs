@@ -300,6 +300,7 @@ mod tests {
                 offsets: &[0],
                 incident: &[],
                 edge_group: &[],
+                crossing: &[],
                 role: &[],
                 groups: vec![open; 2],
             };

@@ -31,6 +31,8 @@ pub struct Scene<'a> {
     /// DRAWN, OUTLINE, both or neither.
     pub role: &'a [u8],
     pub groups: &'a [Group],
+    /// Pairs of groups that have an intersection line: the lower number first, ascending.
+    pub crossing: &'a [[i32; 2]],
 }
 
 /// The arithmetic of the predicates. All but the exact one may give wrong results: for study only.
@@ -68,6 +70,7 @@ impl<'a> Scene<'a> {
             offsets: self.offsets,
             incident: self.incident,
             edge_group: self.edge_group,
+            crossing: self.crossing,
             role: self.role,
             groups: self.groups.iter().map(snapped).collect(),
         };
@@ -115,6 +118,7 @@ mod tests {
             edge_group: &[0, 0, 0, 1],
             role: &[0, 0, 0, DRAWN],
             groups,
+            crossing: &[],
         }
     }
 

@@ -82,6 +82,7 @@ mod tests {
             offsets: &vec![0; edges.len() + 1],
             incident: &[],
             edge_group: &vec![0; edges.len()],
+            crossing: &[],
             role: &vec![0; edges.len()],
             groups: vec![SnappedGroup { cull: true, sound: true, delta: 0, cap: 0, tight: false }],
         };

@@ -1,7 +1,7 @@
 //! The contact tolerance of a polygon seen at a slant.
 //!
 //! Two tessellations that touch are a certain distance apart, at right angles to their surfaces
-//! (`CONTACT_AT_RIGHT_ANGLES`). An edge this far beneath a polygon lies the farther behind it, as seen by the viewer, the
+//! (`TOUCHING_AT_RIGHT_ANGLES`). An edge this far beneath a polygon lies the farther behind it, as seen by the viewer, the
 //! more obliquely that is seen.
 //!
 //! ```text
@@ -10,13 +10,14 @@
 //! ```
 
 use super::mesh::Mesh;
-use hlr_accuracy::CONTACT_AT_RIGHT_ANGLES;
+use hlr_accuracy::{TOUCHING_AT_RIGHT_ANGLES, TOUCHING_BESIDE_A_LINE};
 use hlr_exact::Point;
 use hlr_exact::arithmetic::Arithmetic;
 use hlr_exact::predicates::Cover;
 
-/// |N . v|: for polygons seen at less, the tolerance grows no more.
-const LEAST: f64 = 0.05;
+/// |N . v|: for polygons seen at less, the tolerance grows no more. The rim of a bore comes from behind its shaft where
+/// the shaft is seen edge-on: with more, one chord of the rim would be missing there.
+const LEAST: f64 = 0.005;
 
 /// Polygons as they are seen. depth_scale: depth units of the grid per unit in the image.
 #[derive(Clone, Copy)]
@@ -51,23 +52,29 @@ impl Slant<'_> {
         if delta == 0 || group == drawn_group {
             return delta;
         }
-        self.slanted(delta, t)
+        let crossing = self.mesh.crosses(drawn_group, group);
+        self.slanted(delta, if crossing { TOUCHING_BESIDE_A_LINE } else { TOUCHING_AT_RIGHT_ANGLES }, t)
     }
 
     /// The same for a polygon of the edge's own group, where the body touches itself.
     pub fn delta_of_itself(&self, t: usize) -> i64 {
         let group = &self.mesh.groups[self.mesh.triangle_group[t] as usize];
-        self.slanted(group.delta.min(group.cap), t)
+        self.slanted(group.delta.min(group.cap), TOUCHING_AT_RIGHT_ANGLES, t)
     }
 
-    fn slanted(&self, delta: i64, t: usize) -> i64 {
-        let slanted = (delta as f64 * CONTACT_AT_RIGHT_ANGLES / self.facing(t).max(LEAST)) as i64;
+    /// at_right_angles: of the contact depth.
+    fn slanted(&self, delta: i64, at_right_angles: f64, t: usize) -> i64 {
+        let slanted = (delta as f64 * at_right_angles / self.facing(t).max(LEAST)) as i64;
         slanted.min(self.mesh.groups[self.mesh.triangle_group[t] as usize].cap).max(delta)
     }
 
-    /// The most that `delta` may be.
+    /// The most that `delta` may be for a polygon.
     pub fn most_delta(&self, drawn_group: i32, t: usize) -> i64 {
-        let group = self.mesh.triangle_group[t];
+        self.most_of_group(drawn_group, self.mesh.triangle_group[t])
+    }
+
+    /// The most that `delta` may be for the polygons of a group.
+    pub fn most_of_group(&self, drawn_group: i32, group: i32) -> i64 {
         let delta = self.mesh.delta(drawn_group, group);
         if group == drawn_group {
             delta
@@ -76,9 +83,9 @@ impl Slant<'_> {
         }
     }
 
-    /// The same, whatever the group.
+    /// The same, whatever the groups.
     pub fn most(delta: i64) -> i64 {
-        (delta as f64 * (CONTACT_AT_RIGHT_ANGLES / LEAST)) as i64
+        (delta as f64 * (TOUCHING_AT_RIGHT_ANGLES / LEAST)) as i64
     }
 
     /// Whether an edge of this group, whose ends lie so far beneath the polygon t, lies behind it by more than the count
