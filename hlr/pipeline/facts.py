@@ -41,9 +41,7 @@ def note_touching(planner: Planner, scene: Scene, meshed: Tessellation) -> None:
     touching = int(meshed.touching.sum())
     facts = Facts(touching=touching, through=len(scene.through_themselves), parts=len(scene.parts), faces=faces)
     planner.state(facts, "finer mesh where parts touch")
-    # A model that is meshed anew has no more parts than before.
-    known = planner.cost("finer mesh where parts touch").get("touching_parts", 0)
-    planner.spent("finer mesh where parts touch", touching_parts=touching - known)
+    planner.spent("finer mesh where parts touch", touching_parts=touching)
 
 
 def note_rescue(planner: Planner, scene: Scene, meshed: Tessellation) -> None:

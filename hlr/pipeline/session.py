@@ -42,7 +42,7 @@ from hlr.scene.build import build
 from hlr.scene.scene import Scene
 from hlr.scene.scene_parts import OnCut
 from hlr.source.bounds import diagonal
-from hlr.source.model import Appearance, PartMesh, Source, Tessellation, finer_mesh_of
+from hlr.source.model import Appearance, PartMesh, Source, Tessellation, mesh_finely
 from hlr.source.selection import open_selected
 from hlr.visibility.plan import Plan, decide
 from hlr.visibility.segments import solve
@@ -115,7 +115,7 @@ class Session:
 
         def made(finer: Collection[str]) -> tuple[Scene, Tessellation]:
             started = perf_counter()
-            meshed = self._meshed(coarser * deflection, angle, finer)
+            meshed = mesh_finely(self.source, coarser * deflection, angle, self.progress, finer)
             started = lap(self.clock, "tessellate", started)
             self.progress("scene", 0.0)
             scene = build(meshed, self.options.crease, deflection, planner, self._on_cut, self.source.appearances)
@@ -127,13 +127,6 @@ class Session:
         coarse = [i for i in scene.through_themselves if len(meshed.touching) and not meshed.touching[i]]
         # Where a part touches itself, its facets matter as where it touches another.
         return made({scene.parts.labels[i].name for i in coarse}) if coarse else (scene, meshed)
-
-    def _meshed(self, deflection: float, angle: float, finer: Collection[str]) -> Tessellation:
-        """finer: names of parts meshed as finely as those that touch others, where the source knows of that."""
-        mesh_finer = finer_mesh_of(self.source) if finer else None
-        if mesh_finer is None:
-            return self.source.mesh(deflection, angle, self.progress)
-        return mesh_finer(finer, deflection, angle, self.progress)
 
     def scene_by_size(self) -> Scene:
         """The scene for a purpose without a drawing: meshed at a two-thousandth of its size.
@@ -162,7 +155,6 @@ class Session:
             finest, begun = self._finest(), perf_counter()
             self.scene, meshed = self.scene_at(finest, self.placements[0].tolerances.angle, planner, coarser)
             meshing += perf_counter() - begun
-            note_touching(planner, self.scene, meshed)
             note_meshing(planner, self.scene)
             pairs = zip(self.cameras, self.placements, strict=True)
             drafts = [self._draft(camera, placement, planner.fork()) for camera, placement in pairs]
@@ -170,6 +162,7 @@ class Session:
             if self._finest() > REMESH * finest:
                 break
         for draft in drafts:
+            note_touching(draft.planner, self.scene, meshed)
             note_rescue(draft.planner, self.scene, meshed)
         self.edge_curves = meshed.edge_curves
         self.parts = ()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from inspect import signature
 from typing import Protocol
 
 import numpy as np
@@ -191,8 +192,8 @@ class Source(Protocol):
 
     Any object that follows this protocol can be drawn. Beyond it, a source may have two methods that save work:
     `reach(right, up)`, (2, 2): from where to where the model extends along two directions of length 1, or a little
-    further; and `is_one_sphere()`: there is one part, and it is one whole sphere. Beside its `mesh`, a class may define
-    `mesh_finer(names, deflection, angle, progress)`: it meshes parts of these names more finely.
+    further; and `is_one_sphere()`: there is one part, and it is one whole sphere. Its `mesh` may take one thing more,
+    `finer`: the names of parts that are meshed as finely as those that touch others.
     """
 
     @property
@@ -241,15 +242,22 @@ MEMBERS = tuple(name for name in vars(Source) if not name.startswith("_"))
 """The names that the protocol `Source` asks for."""
 
 
-def finer_mesh_of(source: Source) -> Callable[..., Tessellation] | None:
-    """The method `mesh_finer` of a source; None where its `mesh` is of a class, or of an object, that defines none.
+def mesh_finely(
+    source: Source, deflection: float, angle: float, progress: Progress | None, finer: Collection[str]
+) -> Tessellation:
+    """Mesh a source; where its `mesh` has such an argument, parts of the names `finer` are meshed more finely."""
+    mesh: Callable[..., Tessellation] = source.mesh
+    if finer and _has_finer(mesh):
+        return mesh(deflection, angle, progress, finer=finer)
+    return mesh(deflection, angle, progress)
 
-    Any other `mesh_finer` is inherited, or of a source that this one stands for: it knows nothing of this `mesh`.
-    """
-    for place in (getattr(source, "__dict__", {}), *map(vars, type(source).__mro__)):
-        if "mesh" in place:
-            return source.mesh_finer if "mesh_finer" in place else None  # type: ignore[attr-defined]
-    return getattr(source, "mesh_finer", None)
+
+def _has_finer(mesh: Callable[..., Tessellation]) -> bool:
+    try:
+        # What a decorator stands for may have the argument where the decorator has not.
+        return "finer" in signature(mesh, follow_wrapped=False).parameters
+    except ValueError:  # Compiled code need not say.
+        return False
 
 
 def is_source(thing: object) -> bool:

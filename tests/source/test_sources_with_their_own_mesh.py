@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import wraps
 
 import cadquery as cq
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 import hlr
 from hlr.source import open_source
 from hlr.source.cad.brep_source import BrepSource
-from hlr.source.model import finer_mesh_of
+from hlr.source.model import mesh_finely
 from support.at_size import AT_SIZE
 
 LIFT = np.array((0.0, 0.0, 50.0))
@@ -41,6 +42,21 @@ class Lifted(Standing):
         return self._source.bounds() + LIFT
 
 
+class Lifting(Lifted):
+    """As the protocol has it, with the argument that it need not have."""
+
+    def mesh(self, deflection, angle, progress=None, *, finer=()):
+        return lifted(self._source.mesh(deflection, angle, progress, finer=finer))
+
+
+class Decorated(Lifted):
+    """It has the name and the signature of another method, and takes less."""
+
+    @wraps(BrepSource.mesh)
+    def mesh(self, deflection, angle, progress=None):
+        return lifted(self._source.mesh(deflection, angle, progress))
+
+
 class Inherited(BrepSource):
     def mesh(self, *how):
         return lifted(super().mesh(*how))
@@ -55,7 +71,14 @@ def inherited():
     return Inherited(source.name, source.kind, source.parts, source.prototypes)
 
 
-@pytest.mark.parametrize("make", [lambda: Lifted(block()), inherited])
+def finely(source):
+    """Which parts are meshed finely where all are to be."""
+    return mesh_finely(source, 0.1, 0.5, None, source.names()).touching.tolist()
+
+
+@pytest.mark.parametrize(
+    "make", [lambda: Lifted(block()), lambda: Lifting(block()), lambda: Decorated(block()), inherited]
+)
 @pytest.mark.parametrize("fill", [False, True])
 def test_its_own_mesh_is_drawn(make, fill):
     drawing = hlr.draw(make(), "front", fill=fill, **AT_SIZE)
@@ -64,6 +87,8 @@ def test_its_own_mesh_is_drawn(make, fill):
 
 
 def test_a_source_that_only_forwards_is_meshed_finely_where_that_is_needed():
-    assert finer_mesh_of(Standing(block())) is not None
-    assert finer_mesh_of(block()) is not None
-    assert finer_mesh_of(Lifted(block())) is None and finer_mesh_of(inherited()) is None
+    for source in (block(), Standing(block()), Lifting(block())):
+        assert finely(source) == [True]
+        assert mesh_finely(source, 0.1, 0.5, None, ()).touching.tolist() == [False]
+    for source in (Lifted(block()), inherited(), Decorated(block())):
+        assert finely(source) == [False]

@@ -8,14 +8,14 @@ from __future__ import annotations
 import cadquery as cq
 import numpy as np
 import pytest
+from OCP.BRepBuilderAPI import BRepBuilderAPI_NurbsConvert
 
 import hlr
 from hlr import _kernel
-from hlr.pipeline.facts import note_touching
+from hlr.pipeline import session
 from hlr.pipeline.session import Session
 from hlr.request.accuracy import ALONE, TOUCHING
-from hlr.request.drawing_effects import drawing_effects
-from hlr.request.effect import Planner
+from hlr.scene.build import build
 from hlr.source import open_source
 from support.at_size import AT_SIZE
 
@@ -95,12 +95,12 @@ def test_a_part_alone_is_meshed_alike_wherever_others_are():
 
 
 def test_a_surface_through_itself_is_meshed_as_finely_as_parts_that_touch():
-    session = Session(through_itself(), [], hlr.Options())
-    scene, found = session.scene_at(DEFLECTION)
+    opened = Session(through_itself(), [], hlr.Options())
+    scene, found = opened.scene_at(DEFLECTION)
     assert scene.through_themselves == {0} and found.touching.tolist() == [True]
-    assert len(scene.triangles) > 1.2 * sum(len(p.triangles) for p in session.source.mesh(DEFLECTION, 0.5).parts)
+    assert len(scene.triangles) > 1.2 * sum(len(p.triangles) for p in opened.source.mesh(DEFLECTION, 0.5).parts)
     # A second drawing at a scale where it is not asked for does not depend on the first.
-    assert not session.source.mesh(DEFLECTION, 0.5).touching.any()
+    assert not opened.source.mesh(DEFLECTION, 0.5).touching.any()
 
 
 def test_the_plan_says_how_many():
@@ -134,12 +134,22 @@ def test_the_plan_says_that_filled_faces_need_it():
     assert why(cq.Compound.makeCompound([shaft(0), shaft(100)]), fill=True) == (reason, 2)
 
 
-def test_parts_of_a_model_that_is_meshed_twice_count_once():
-    session = Session(cq.Compound.makeCompound([shaft(0), shaft(20)]), [], hlr.Options())
-    planner = Planner(drawing_effects(), hlr.Options())
-    for deflection in (DEFLECTION, DEFLECTION / 2):
-        note_touching(planner, *session.scene_at(deflection))
-    assert planner.cost("finer mesh where parts touch") == {"touching_parts": 2}
+def test_parts_of_a_model_that_is_meshed_twice_count_once(monkeypatch):
+    meshings = []
+
+    def counted(*how):
+        meshings.append(how)
+        return build(*how)
+
+    monkeypatch.setattr(session, "build", counted)
+    # The control points of the balls reach farther than these do: their scale is larger than was foreseen.
+    ball = cq.Solid.makeSphere(5, angleDegrees1=-90, angleDegrees2=90)
+    ball = cq.Shape.cast(BRepBuilderAPI_NurbsConvert(ball.wrapped).Shape())
+    two = cq.Compound.makeCompound([ball, ball.moved(cq.Location(cq.Vector(0, 0, 10)))])
+    drawing = hlr.draw(two, (1, 1, 1), fit=(100, 100))
+    assert len(meshings) == 2
+    found = next(d for d in drawing.plan if d.name == "finer mesh where parts touch")
+    assert found.counts == {"touching_parts": 2}
 
 
 @pytest.mark.parametrize("shares", [[0.0], [1.5], [float("nan")], [0.5, 0.5], []])
@@ -147,7 +157,7 @@ def test_shares_that_are_none_are_refused(shares):
     source = open_source(shaft(0))
     source.mesh(DEFLECTION, 0.5)
     with pytest.raises(ValueError, match="shares"):
-        source._tessellator._model.mesh(DEFLECTION, 0.5, None, np.array(shares, float))
+        source._part_tessellator._model.mesh(DEFLECTION, 0.5, None, np.array(shares, float))
 
 
 def test_boxes_that_come_near_are_found():

@@ -204,23 +204,19 @@ class BrepSource:
         """There is one part, and it is one whole sphere: no other line of it than its outline is ever drawn."""
         return len(self._parts) == 1 and self._part_tessellator.is_one_sphere()
 
-    def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Tessellation:
+    def mesh(
+        self, deflection: float, angle: float, progress: Progress | None = None, *, finer: Collection[str] = ()
+    ) -> Tessellation:
         """Tessellate: chord error at most `deflection` (millimetres), turning per chord at most `angle` (radians).
 
-        Parts that may touch others are meshed more finely.
+        Parts that may touch others are meshed more finely, and so are those named by `finer`.
 
         Raises:
             SourceError: no part could be meshed, or it would have too many triangles.
         """
-        return self.mesh_finer((), deflection, angle, progress)
-
-    def mesh_finer(
-        self, names: Collection[str], deflection: float, angle: float, progress: Progress | None = None
-    ) -> Tessellation:
-        """As `mesh`, with the parts of these names meshed as finely as those that may touch others."""
         surfaces, touching = self._part_tessellator, self._touching(deflection)
-        if names:
-            touching |= [part.name in names for part in self._parts]
+        if finer:
+            touching |= [part.name in finer for part in self._parts]
         try:
             tables, faults = surfaces.mesh(deflection, angle, self._touching_prototypes(touching), progress)
         except MemoryError:
