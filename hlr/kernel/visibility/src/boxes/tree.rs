@@ -60,7 +60,18 @@ impl Tree {
 
     /// Whether `wanted` is true of an item whose box overlaps `query`. No more is searched after the first.
     #[inline]
-    pub fn any(&self, query: &Aabb, mut wanted: impl FnMut(u32) -> bool) -> bool {
+    pub fn any(&self, query: &Aabb, wanted: impl FnMut(u32) -> bool) -> bool {
+        self.any_within(query, |_| true, wanted)
+    }
+
+    /// The same. `enter`: whether a node, of which `query` overlaps the box, may have such an item at all.
+    #[inline]
+    pub(super) fn any_within(
+        &self,
+        query: &Aabb,
+        enter: impl Fn(usize) -> bool,
+        mut wanted: impl FnMut(u32) -> bool,
+    ) -> bool {
         if self.nodes.is_empty() {
             return false;
         }
@@ -70,7 +81,7 @@ impl Tree {
             top -= 1;
             let at = stack[top];
             let node = &self.nodes[at as usize];
-            if !node.bounds.overlaps(query) {
+            if !node.bounds.overlaps(query) || !enter(at as usize) {
                 continue;
             }
             if node.second > 0 {
@@ -86,6 +97,23 @@ impl Tree {
             }
         }
         false
+    }
+
+    /// Of each node the owner of all its items, where that is one.
+    pub(super) fn only_owners(&self, owner: &[u32]) -> Vec<Option<u32>> {
+        let mut owners = vec![None; self.nodes.len()];
+        // Halves come after their node.
+        for (at, node) in self.nodes.iter().enumerate().rev() {
+            owners[at] = if node.second > 0 {
+                let [a, b]: [Option<u32>; 2] = [owners[at + 1], owners[at + node.second as usize]];
+                a.filter(|_| a == b)
+            } else {
+                let mut all = self.of_node(node).iter().map(|(_, item)| owner[*item as usize]);
+                let first = all.next();
+                first.filter(|first| all.all(|other| other == *first))
+            };
+        }
+        owners
     }
 
     pub(super) fn of_node(&self, node: &Node) -> &[Item] {
