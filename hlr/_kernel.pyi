@@ -85,6 +85,13 @@ def boxes_near(corners: Floats, reach: float) -> Bools:
     of another part; always True where it does, rarely where it does not.
     """
 
+def faces_near(model: BrepModel, parts: Ints, places: Floats, whole: Bools, reach: float) -> tuple[Bools, Ints]:
+    """(faces,) which underlying faces come near a face of another part, and (n,) how many faces of each part do.
+
+    They do where their boxes, `reach` wider on all sides, meet. parts (n,): numbers in the model; places (n, 3, 4): the
+    matrices that place them; whole (n,): parts of which all faces count as near.
+    """
+
 def placed_boxes(boxes: Floats, root: Ints, place: Floats) -> tuple[Floats, Floats]:
     """Corners (p, 8, 3) of the bounding boxes of parts, and the box (2, 3) around all of them.
 
@@ -902,7 +909,7 @@ class BrepModel:
         most_steps: int = ...,
     ) -> BrepMesh:
         """Meshes all faces. deflection: chord error; angle: turning angle, radians; progress: called with the share of
-        faces that are done; shares (parts,): of the deflection, how much each part may use, above 0 and at most 1;
+        faces that are done; shares (faces,): of the deflection, how much each face may use, above 0 and at most 1;
         most_steps: limit on the work on one face, half a billion but for tests. Raises MemoryError where there would be
         more than 8 million points."""
 

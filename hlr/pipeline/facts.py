@@ -36,12 +36,14 @@ def note_meshing(planner: Planner, scene: Scene) -> None:
 
 
 def note_touching(planner: Planner, scene: Scene, meshed: Tessellation) -> None:
-    """State how many parts are meshed more finely, as they may touch others."""
+    """State how many parts are meshed more finely where they may touch others, and how many of their faces."""
     faces = scene.true_surfaces is not None
-    touching = int(meshed.touching.sum())
+    touching = int(np.count_nonzero(meshed.touching))
     facts = Facts(touching=touching, through=len(scene.through_themselves), parts=len(scene.parts), faces=faces)
     planner.state(facts, "finer mesh where parts touch")
-    planner.spent("finer mesh where parts touch", touching_parts=touching)
+    planner.spent(
+        "finer mesh where parts touch", touching_parts=touching, touching_faces=int(meshed.touching.sum(dtype=np.int64))
+    )
 
 
 def note_rescue(planner: Planner, scene: Scene, meshed: Tessellation) -> None:

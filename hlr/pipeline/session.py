@@ -124,8 +124,9 @@ class Session:
 
         # The light on a filled face is divided at its triangles.
         scene, meshed = made(self.source.names() if self.options.fill else ())
-        coarse = [i for i in scene.through_themselves if len(meshed.touching) and not meshed.touching[i]]
         # Where a part touches itself, its facets matter as where it touches another.
+        through = scene.through_themselves if len(meshed.touching) else ()
+        coarse = [i for i in through if meshed.touching[i] < len(meshed.parts[i].face_planar)]
         return made({scene.parts.labels[i].name for i in coarse}) if coarse else (scene, meshed)
 
     def scene_by_size(self) -> Scene:

@@ -75,11 +75,11 @@ SPHERE_MESH = 256.0
 surface, where each chord of the mesh is halved up to six times: its own chord error is 4096 times smaller."""
 
 ALONE = 0.86
-"""Of the deflection: chord error of a B-rep part that is one solid and comes near no other. With more, outlines that
-touch others are seen beside them for longer than the accuracy."""
+"""Of the deflection: chord error of a face of one solid that comes near no other part. With more, outlines that touch
+others are seen beside them for longer than the accuracy."""
 
 TOUCHING = 0.5
-"""Of the deflection: chord error of a B-rep part that may touch another. Two surfaces, one inside the other, are then
+"""Of the deflection: chord error of a face that may touch another part. Two surfaces, one inside the other, are then
 no further apart than one deflection."""
 
 STITCH = 0.4

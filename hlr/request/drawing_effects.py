@@ -234,7 +234,7 @@ _BEFORE: tuple[Effect, ...] = (
     Effect("mesh reader", ASKED, _mesh, ("mesh_parts",)),
     Effect("section", ASKED, _section, ("cut_parts",)),
     Effect("fine mesh", SCENE, _fine),
-    Effect("finer mesh where parts touch", SCENE, _touching, ("touching_parts",)),
+    Effect("finer mesh where parts touch", SCENE, _touching, ("touching_parts", "touching_faces")),
     Effect("meshing of curved faces", SCENE, _curved, ("curved_triangles",)),
     Effect("triangulation of planar faces", SCENE, _planar, ("planar_triangles",)),
     Effect("rescue of faces", SCENE, _rescue, ("rescued_faces", "lost_faces")),

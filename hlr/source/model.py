@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from hlr.common.types import Bools, Color, Floats, Ints, Progress, Rgba
+from hlr.common.types import Color, Floats, Ints, Progress, Rgba
 from hlr.drawing.notes import Note
 
 DEFAULT_COLOR: Rgba = (0.70, 0.74, 0.79, 1.0)
@@ -171,7 +171,7 @@ class Tessellation:
     edge_curves: the curves of edges, given as (m,) parts and (m,) indices in their TopExp edge maps; None for meshes
     rescued, lost: how many underlying faces were mended or meshed by OpenCASCADE, and how many nobody could mesh
     surface_parts: the names of parts that are faces outside all solids, which may be open; asked only where one is
-    touching: (p,) bool: parts of B-reps that are meshed more finely, as they may touch others; empty: none
+    touching: (p,) of B-reps, how many faces of each part are meshed more finely, as they may touch others; empty: none
     """
 
     parts: Sequence[PartMesh]
@@ -180,7 +180,7 @@ class Tessellation:
     lost: int = 0
     edge_curves: Callable[[Ints, Ints], EdgeCurves] | None = None
     surface_parts: Callable[[], Collection[str]] = frozenset
-    touching: Bools = field(default_factory=lambda: np.zeros(0, bool))
+    touching: Ints = field(default_factory=lambda: np.zeros(0, np.int32))
 
 
 Choice = tuple[tuple[str, ...], tuple[str, ...]]
@@ -193,7 +193,7 @@ class Source(Protocol):
     Any object that follows this protocol can be drawn. Beyond it, a source may have two methods that save work:
     `reach(right, up)`, (2, 2): from where to where the model extends along two directions of length 1, or a little
     further; and `is_one_sphere()`: there is one part, and it is one whole sphere. Its `mesh` may take one thing more,
-    `finer`: the names of parts that are meshed as finely as those that touch others.
+    `finer`: the names of parts of which all faces are meshed as finely as where they touch others.
     """
 
     @property

@@ -72,7 +72,7 @@ def inherited():
 
 
 def finely(source):
-    """Which parts are meshed finely where all are to be."""
+    """How many faces of each part are meshed finely where all are to be."""
     return mesh_finely(source, 0.1, 0.5, None, source.names()).touching.tolist()
 
 
@@ -88,7 +88,7 @@ def test_its_own_mesh_is_drawn(make, fill):
 
 def test_a_source_that_only_forwards_is_meshed_finely_where_that_is_needed():
     for source in (block(), Standing(block()), Lifting(block())):
-        assert finely(source) == [True]
-        assert mesh_finely(source, 0.1, 0.5, None, ()).touching.tolist() == [False]
+        assert finely(source) == [6]
+        assert mesh_finely(source, 0.1, 0.5, None, ()).touching.tolist() == [0]
     for source in (Lifted(block()), inherited(), Decorated(block())):
-        assert finely(source) == [False]
+        assert finely(source) == [0]

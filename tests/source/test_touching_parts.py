@@ -1,6 +1,6 @@
-"""Parts that may touch others are meshed more finely: facets of one surface must not part by more than a deflection.
+"""What may touch another part is meshed more finely: facets of one surface must not part by more than a deflection.
 
-A part that is one solid and comes near no other needs no such care.
+A part that is one solid and comes near no other needs no such care. `test_touching_faces` has the faces one by one.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def chord_error(part, x):
 
 def test_only_parts_that_come_near_others_are_meshed_finely():
     found = meshed(shaft(0), shaft(2 * RADIUS), shaft(100))
-    assert found.touching.tolist() == [True, True, False]
+    assert found.touching.tolist() == [3, 3, 0]
     errors = [chord_error(part, x) for part, x in zip(found.parts, (0, 2 * RADIUS, 100), strict=True)]
     fine, coarse = TOUCHING * DEFLECTION, ALONE * DEFLECTION
     assert max(errors[:2]) <= fine * 1.001
@@ -68,14 +68,14 @@ def test_a_solid_alone_has_fewer_triangles(make):
 def test_within_the_contact_depth_they_may_touch():
     for gap, near in ((0.0, True), (2.4 * 2 * DEFLECTION, True), (1.0, False)):
         found = meshed(shaft(0), shaft(2 * RADIUS + gap))
-        assert found.touching.tolist() == [near, near], gap
+        assert found.touching.tolist() == [3 * near, 3 * near], gap
 
 
 def test_instances_of_one_shape_have_one_mesh_and_the_finest_counts():
     one = shaft(0)
     moved = [one.moved(cq.Location(cq.Vector(x, 0, 0))) for x in (0, 20, 300)]
     found = meshed(*moved)
-    assert found.touching.tolist() == [True, True, False]
+    assert found.touching.tolist() == [3, 3, 0]
     assert len({len(part.triangles) for part in found.parts}) == 1
 
 
@@ -85,7 +85,7 @@ def test_lines_of_a_sketch_touch_nothing():
 
 
 def test_faces_outside_a_solid_may_touch_one_another():
-    assert meshed(*shaft(0).Faces()).touching.tolist() == [True]
+    assert meshed(*shaft(0).Faces()).touching.tolist() == [3]
 
 
 def test_a_part_alone_is_meshed_alike_wherever_others_are():
@@ -97,7 +97,7 @@ def test_a_part_alone_is_meshed_alike_wherever_others_are():
 def test_a_surface_through_itself_is_meshed_as_finely_as_parts_that_touch():
     opened = Session(through_itself(), [], hlr.Options())
     scene, found = opened.scene_at(DEFLECTION)
-    assert scene.through_themselves == {0} and found.touching.tolist() == [True]
+    assert scene.through_themselves == {0} and found.touching.tolist() == [len(through_itself().Faces())]
     assert len(scene.triangles) > 1.2 * sum(len(p.triangles) for p in opened.source.mesh(DEFLECTION, 0.5).parts)
     # A second drawing at a scale where it is not asked for does not depend on the first.
     assert not opened.source.mesh(DEFLECTION, 0.5).touching.any()
@@ -114,7 +114,11 @@ def test_the_plan_says_how_many():
     assert not decided(shaft(0)).on and decided(shaft(0)).reason == "one solid touches no other"
     assert decided(shaft(0), shaft(100)).reason == "no part comes near another"
     three = decided(shaft(0), shaft(20), shaft(100))
-    assert three.on and three.reason == "2 parts may touch others" and three.counts == {"touching_parts": 2}
+    assert (
+        three.on
+        and three.reason == "2 parts may touch others"
+        and three.counts == {"touching_parts": 2, "touching_faces": 6}
+    )
 
 
 def why(scene_of, **options):
@@ -149,10 +153,10 @@ def test_parts_of_a_model_that_is_meshed_twice_count_once(monkeypatch):
     drawing = hlr.draw(two, (1, 1, 1), fit=(100, 100))
     assert len(meshings) == 2
     found = next(d for d in drawing.plan if d.name == "finer mesh where parts touch")
-    assert found.counts == {"touching_parts": 2}
+    assert found.counts == {"touching_parts": 2, "touching_faces": 2}
 
 
-@pytest.mark.parametrize("shares", [[0.0], [1.5], [float("nan")], [0.5, 0.5], []])
+@pytest.mark.parametrize("shares", [[0.5, 0.0, 1], [1.5, 1, 1], [1, 1, float("nan")], [0.5, 0.5], []])
 def test_shares_that_are_none_are_refused(shares):
     source = open_source(shaft(0))
     source.mesh(DEFLECTION, 0.5)

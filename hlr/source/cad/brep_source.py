@@ -209,16 +209,14 @@ class BrepSource:
     ) -> Tessellation:
         """Tessellate: chord error at most `deflection` (millimetres), turning per chord at most `angle` (radians).
 
-        Parts that may touch others are meshed more finely, and so are those named by `finer`.
+        Faces that may touch other parts are meshed more finely, and all faces of the parts named by `finer`.
 
         Raises:
             SourceError: no part could be meshed, or it would have too many triangles.
         """
-        surfaces, touching = self._part_tessellator, self._touching(deflection)
-        if finer:
-            touching |= [part.name in finer for part in self._parts]
+        surfaces, (fine, touching) = self._part_tessellator, self._touching(deflection, finer)
         try:
-            tables, faults = surfaces.mesh(deflection, angle, self._touching_prototypes(touching), progress)
+            tables, faults = surfaces.mesh(deflection, angle, fine, progress)
         except MemoryError:
             raise SourceError(
                 f"{self._name} would have more than 16 million triangles: give a coarser accuracy, or a smaller scale."
@@ -257,21 +255,26 @@ class BrepSource:
         rescued = len(faults.rescued) + len(faults.crossed)
         return Tessellation(parts, notes, rescued, len(faults.lost), edge_curves, self._surface_parts, touching)
 
-    def _touching(self, deflection: float) -> Bools:
-        """(p,) which parts may touch another one, or themselves, as faces outside a solid may."""
+    def _touching(self, deflection: float, finer: Collection[str] = ()) -> tuple[Bools, Ints]:
+        """Which underlying faces may touch another part somewhere, and (p,) how many faces of each part may.
+
+        All faces may of a part that is not one solid, as they may touch one another, and of those named by `finer`.
+        """
         faces, _, solids = self._prototypes.counts[self._prototype_numbers].T
         faced = faces > 0  # Lines of annotations and sketches have no facets.
-        may: Bools = faced & (solids != 1)
+        whole: Bools = faced & (solids != 1)
+        if finer:
+            whole |= faced & [part.name in finer for part in self._parts]
+        reach = CONTACT * deflection
+        near = whole.copy()
         if np.count_nonzero(faced) > 1:
             corners, _ = self._placed
-            may[faced] |= _kernel.boxes_near(corners[faced], CONTACT * deflection)
-        return may
-
-    def _touching_prototypes(self, touching: Bools) -> Bools:
-        """Of the prototypes that are used, which have a part that may touch another one."""
-        out = np.zeros(len(self._used_prototypes), bool)
-        out[self._used_numbers[touching]] = True
-        return out
+            near[faced] |= _kernel.boxes_near(corners[faced], reach)
+        touching: Ints = np.zeros(len(self._parts), np.int32)
+        fine, touching[near] = self._part_tessellator.faces_near(
+            self._used_numbers[near], self._places[near], whole[near], reach
+        )
+        return fine, touching
 
     def _surface_parts(self) -> frozenset[str]:
         """The names of parts that are faces outside all solids."""

@@ -37,16 +37,16 @@ class Tessellator:
         self._planar = self._model.planar(PLANARITY_SHARE * size)
 
     def mesh(
-        self, deflection: float, angle: float, touching: Bools, progress: Progress | None = None
+        self, deflection: float, angle: float, fine: Bools, progress: Progress | None = None
     ) -> tuple[_kernel.PartTables, MeshingFaults]:
         """Meshes of the prototypes, and the faces that failed. deflection: model units; angle: turning, radians.
 
-        touching: of each chosen prototype, whether it may touch another one somewhere
+        fine: of each underlying face, whether it may touch another part somewhere
         """
         if progress is not None:
             progress("tessellate", 0.0)
         report = None if progress is None else lambda done: progress("tessellate", done)
-        meshed = self._model.mesh(ALONE * deflection, angle, report, np.where(touching, TOUCHING / ALONE, 1.0))
+        meshed = self._model.mesh(ALONE * deflection, angle, report, np.where(fine, TOUCHING / ALONE, 1.0))
         faults = self._rescue_failed(meshed, deflection, angle)
         faults.folded = self._model.folded()
         # Two faces that meet at an edge may be twice as far apart: that is the accuracy.
@@ -94,6 +94,13 @@ class Tessellator:
     def reach(self, prototypes: Ints, places: Floats, right: Vector, up: Vector) -> Floats:
         """As of `BrepSource`: of prototypes, numbers (n,) among the chosen, that stand at `places` (n, 4, 4)."""
         return self._model.reach(prototypes, np.ascontiguousarray(places[:, :3]), right, up)
+
+    def faces_near(self, prototypes: Ints, places: Floats, whole: Bools, reach: float) -> tuple[Bools, Ints]:
+        """Which underlying faces come near another part, and (n,) how many faces of each part; all, of those `whole`.
+
+        prototypes: (n,) numbers among the chosen, of parts that stand at `places` (n, 4, 4)
+        """
+        return _kernel.faces_near(self._model, prototypes, np.ascontiguousarray(places[:, :3]), whole, reach)
 
     def is_one_sphere(self) -> bool:
         """Whether the prototypes are one, and that one whole sphere."""

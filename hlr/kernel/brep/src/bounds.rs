@@ -112,7 +112,7 @@ fn may_reach_beyond(face: &Face, place: &Matrix, found: &Box3) -> bool {
     }
 }
 
-fn add_point(point: &Vector, found: &mut Box3) {
+pub(crate) fn add_point(point: &Vector, found: &mut Box3) {
     for k in 0..3 {
         found[0][k] = found[0][k].min(point[k]);
         found[1][k] = found[1][k].max(point[k]);
@@ -129,7 +129,7 @@ pub(crate) fn add_ends(edge: &Edge, place: &Matrix, found: &mut Box3) {
     points.for_each(|point| add_point(&moved(place, point), found));
 }
 
-fn add_edge(model: &Model, edge: &Edge, place: &Matrix, found: &mut Box3) {
+pub(crate) fn add_edge(model: &Model, edge: &Edge, place: &Matrix, found: &mut Box3) {
     if let Some(curve) = &edge.curve {
         add_curve(&curve.moved(place), edge.range, found);
     } else if let Some((number, surface)) = &edge.only_on
@@ -150,7 +150,7 @@ fn steps([first, last]: Range, count: usize) -> impl Iterator<Item = f64> {
 }
 
 /// Adds a curve, or the poles of a spline, which enclose it. Its ends may lie beyond them, where it is continued.
-fn add_poles(curve: &Curve, range: Range, found: &mut Box3) {
+pub(crate) fn add_poles(curve: &Curve, range: Range, found: &mut Box3) {
     match curve {
         Curve::Spline(n) => {
             range.iter().for_each(|t| add_point(&curve.point(*t), found));
@@ -226,7 +226,7 @@ fn add_face(model: &Model, face: &Face, place: &Matrix, add_spline: AddSpline, f
     add_surface(surface, uv_range(model, face, surface, add_curve), place, found);
 }
 
-fn reaches_on_edges(surface: &Surface) -> bool {
+pub(crate) fn reaches_on_edges(surface: &Surface) -> bool {
     match surface {
         Surface::Plane(_) | Surface::Cylinder(..) | Surface::Cone(..) | Surface::Extrusion(..) => true,
         Surface::Offset(basis, _) => reaches_on_edges(basis),
@@ -239,7 +239,7 @@ fn reaches_on_edges(surface: &Surface) -> bool {
 /// says nothing of where the face ends in the other.
 ///
 /// `add`: adds a curve, as `add_curve` does, or something that encloses it.
-fn uv_range(model: &Model, face: &Face, surface: &Surface, add: fn(&Curve, Range, &mut Box3)) -> [Range; 2] {
+pub(crate) fn uv_range(model: &Model, face: &Face, surface: &Surface, add: fn(&Curve, Range, &mut Box3)) -> [Range; 2] {
     let mut all = EMPTY;
     let (mut around, periods) = ([false; 2], surface.periods());
     for wire in &face.wires {
@@ -261,7 +261,7 @@ fn uv_range(model: &Model, face: &Face, surface: &Surface, add: fn(&Curve, Range
     [0, 1].map(|k| if around[1 - k] || all[0][k] > all[1][k] { WHOLE } else { [all[0][k], all[1][k]] })
 }
 
-fn add_surface(surface: &Surface, [u, v]: [Range; 2], place: &Matrix, found: &mut Box3) {
+pub(crate) fn add_surface(surface: &Surface, [u, v]: [Range; 2], place: &Matrix, found: &mut Box3) {
     match surface {
         Surface::Sphere(frame, radius) => {
             let v = [v[0].max(-FRAC_PI_2), v[1].min(FRAC_PI_2)];

@@ -16,6 +16,7 @@ pub mod divided;
 mod each_face;
 pub mod edges;
 pub mod explore;
+pub mod face_boxes;
 pub mod faces;
 mod folded;
 pub mod foreign_mesh;

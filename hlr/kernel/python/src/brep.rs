@@ -194,8 +194,8 @@ impl BrepModel {
         is_one_sphere(&self.0)
     }
 
-    /// Meshes all faces. `progress`: called with the share of faces that are done; `shares` (parts,): of the deflection,
-    /// how much of it each part may use, in (0, 1]; `most_steps`: of one face, other than `LIMITS` has for tests alone. A
+    /// Meshes all faces. `progress`: called with the share of faces that are done; `shares` (faces,): of the deflection,
+    /// how much of it each face may use, in (0, 1]; `most_steps`: of one face, other than `LIMITS` has for tests alone. A
     /// MemoryError: there would be more points than the limit.
     #[pyo3(signature = (deflection, angle, progress = None, shares = None, most_steps = LIMITS.steps))]
     fn mesh(
@@ -216,11 +216,11 @@ impl BrepModel {
             None => ChordErrors::same(model, deflection),
             Some(shares) => {
                 let shares = flat(shares, "shares")?;
-                expect_len("shares", shares.len(), model.parts.len())?;
+                expect_len("shares", shares.len(), model.faces.len())?;
                 if shares.iter().any(|&share| !(share > 0.0 && share <= 1.0)) {
                     return Err(PyValueError::new_err("shares must be above 0 and at most 1"));
                 }
-                ChordErrors::of_parts(model, deflection, shares)
+                ChordErrors::of_faces(model, deflection, shares)
             }
         };
         let tell = |py: Python<'_>| {

@@ -59,6 +59,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<visibility::Visibility>()?;
     m.add_function(wrap_pyfunction!(clash::clashes, m)?)?;
     m.add_function(wrap_pyfunction!(boxes::boxes_near, m)?)?;
+    m.add_function(wrap_pyfunction!(boxes::faces_near, m)?)?;
     m.add_function(wrap_pyfunction!(boxes::placed_boxes, m)?)?;
     m.add_function(wrap_pyfunction!(threads::limit_threads, m)?)?;
     m.add_function(wrap_pyfunction!(geometry::curve_points, m)?)?;
