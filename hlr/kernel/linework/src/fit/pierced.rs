@@ -29,7 +29,7 @@ pub fn at_meeting(routes: &[Route], change: &Change, meetings: &[Meeting], reach
                 let start = ts[end * (ts.len() - 1)];
                 let step = placed.track.nearest(&placed.curve, &met.space) - start;
                 let turns = placed.track.period.map_or(0.0, |period| (step / period).round() * period);
-                Goal::Parameter(placed.track.ending(start, start + step - turns)?)
+                Goal::Parameter(routes[line].ending(start + step - turns, start)?)
             }
             None => Goal::Point(met.flat, met.space),
         };

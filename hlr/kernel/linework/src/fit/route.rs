@@ -51,10 +51,12 @@ impl Route<'_> {
         [[self.flat[i][0] + way[0] * s, self.flat[i][1] + way[1] * s], way]
     }
 
-    /// The new end parameter t of a line that ended at `start`, limited to the ends of its curve; None if it is more
-    /// than half a turn of a closed curve away.
+    /// The new end parameter t of a line that ended at `start`, limited to the ends of its curve, and of its edge; None if
+    /// it is more than half a turn of a closed curve away.
     pub fn ending(&self, t: f64, start: f64) -> Option<f64> {
-        self.curve.as_ref().map_or(Some(t), |(placed, _)| placed.track.ending(start, t))
+        let Some((placed, _)) = &self.curve else { return Some(t) };
+        let t = placed.track.ending(start, t)?;
+        Some(if self.border == Border::Outline { t } else { placed.track.within_arc(start, t) })
     }
 
     /// The point in space that `at` is the image of.

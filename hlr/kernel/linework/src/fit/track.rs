@@ -1,5 +1,7 @@
 //! The parameters of a curve: its period if it is closed, start values for a search, the nearest point to a given one.
 
+use std::f64::consts::TAU;
+
 use hlr_brep::geometry::curve::{Curve, Vec3};
 use hlr_exact::elementary::{asinh, atan2};
 
@@ -19,6 +21,8 @@ pub struct Track {
     pub period: Option<f64>,
     /// A closed B-spline has parameters only inside its range.
     bounded: Option<[f64; 2]>,
+    /// The range of an arc that is no whole circle or ellipse: its curve goes on beyond it.
+    arc: Option<[f64; 2]>,
     places: Places,
 }
 
@@ -27,7 +31,8 @@ impl Track {
     pub fn new(curve: &Curve, range: [f64; 2], model: f64) -> Track {
         match curve {
             Curve::Ellipse { .. } => {
-                Track { period: Some(std::f64::consts::TAU), bounded: None, places: Places::default() }
+                let arc = (range[1] - range[0] < (1.0 - 1e-9) * TAU).then_some(range);
+                Track { period: Some(TAU), bounded: None, arc, places: Places::default() }
             }
             Curve::Spline(n) => {
                 let (low, high) = n.domain();
@@ -47,9 +52,9 @@ impl Track {
                 places.push(range[1]);
                 let places: Vec<(f64, Vec3)> = places.into_iter().map(|t| (t, curve.point(t))).collect();
                 let places = if n.sampled { places } else { dense(places, curve) };
-                Track { period, bounded: Some(range), places: Places::new(places) }
+                Track { period, bounded: Some(range), arc: None, places: Places::new(places) }
             }
-            _ => Track { period: None, bounded: None, places: Places::default() },
+            _ => Track { period: None, bounded: None, arc: None, places: Places::default() },
         }
     }
 
@@ -70,6 +75,14 @@ impl Track {
             (None, Some([low, high])) => Some(to.clamp(low, high)),
             _ => Some(to),
         }
+    }
+
+    /// The parameter `to` for an end at `from`, both of an edge: not beyond the end of its arc, where the circle is that of
+    /// the next edge.
+    pub fn within_arc(&self, from: f64, to: f64) -> f64 {
+        let Some([low, high]) = self.arc else { return to };
+        let turns = ((from - 0.5 * (low + high)) / TAU).round() * TAU;
+        to.clamp((low + turns).min(from), (high + turns).max(from))
     }
 
     /// Whether an interval is all of a closed curve.
@@ -255,6 +268,20 @@ mod tests {
     }
 
     #[test]
+    fn an_end_stays_on_the_arc_of_its_edge() {
+        let circle = Curve::Ellipse { p: [0.0; 3], a: [1.0, 0.0, 0.0], b: [0.0, 1.0, 0.0] };
+        let half = Track::new(&circle, [1.0, 4.0], 1e-9);
+        for turn in [0.0, TAU, -3.0 * TAU] {
+            for (from, to, wanted) in
+                [(3.9, 4.5, 4.0), (1.1, 0.2, 1.0), (2.0, 3.0, 3.0), (4.1, 4.5, 4.1), (0.9, 0.5, 0.9)]
+            {
+                assert!((half.within_arc(from + turn, to + turn) - wanted - turn).abs() < 1e-12, "{turn} {from} {to}");
+            }
+        }
+        assert_eq!(Track::new(&circle, [1.0, 1.0 + TAU], 1e-9).within_arc(3.0, 9.0), 9.0);
+    }
+
+    #[test]
     fn samples_turn_by_little_from_one_to_the_next() {
         let curve = helix();
         // Four a turn: nearer to the next turn than to one another.
@@ -262,7 +289,7 @@ mod tests {
         let many = dense(few, &curve);
         assert!((9 * 12..9 * 26).contains(&many.len()), "{}", many.len());
         assert!(many.windows(2).all(|w| w[0].0 < w[1].0));
-        let track = Track { period: None, bounded: Some([0.0, 36.0]), places: Places::new(many) };
+        let track = Track { period: None, bounded: Some([0.0, 36.0]), arc: None, places: Places::new(many) };
         for k in 0..500 {
             let t = 36.0 * f64::from(k) / 500.0;
             assert!((track.nearest(&curve, &curve.point(t)) - t).abs() < 1e-6, "{t}");
