@@ -238,7 +238,7 @@ fn delta(mesh: &Mesh, own: i32, other: i32) -> i64 {
     }
 }
 
-/// The most that an edge may be moved before it is compared with a triangle of another group, seen at a slant: two fifths
+/// The most that an edge may be moved before it is compared with a triangle of another group, seen at a slant: four fifths
 /// of what it is moved for its group, over |N . v|. Rounded up.
 fn at_a_slant(mesh: &Mesh, depth_scale: f64, own: i32, t: usize, delta: i64) -> i64 {
     let group = mesh.triangle_group[t];
@@ -248,7 +248,7 @@ fn at_a_slant(mesh: &Mesh, depth_scale: f64, own: i32, t: usize, delta: i64) -> 
     let [x, y, z] = oracle::normal(mesh.triangles[t].map(|v| mesh.points[v as usize])).map(|c| c as f64);
     let across = (x * x + y * y) / (depth_scale * depth_scale);
     let facing = z.abs() / (across + z * z).sqrt();
-    ((delta as f64 * 0.4 / facing.max(0.05)) as i64 + 1).min(mesh.groups[group as usize].cap).max(delta)
+    ((delta as f64 * 0.8 / facing.max(0.005)) as i64 + 1).min(mesh.groups[group as usize].cap).max(delta)
 }
 
 type Interval = (f64, f64, u8);
