@@ -77,3 +77,17 @@ def test_hidden_lines_stay_hidden():
         return sum(line.length_mm for line in drawn.visible)
 
     assert math.isclose(seen(drawing), seen(apart), rel_tol=0.02)
+
+
+@pytest.mark.parametrize("view", [(0.3, -1.0, 0.05), (0.3, -1.0, -0.08), (0.0, -1.0, 0.1), (1.0, 0.02, 0.01)])
+@pytest.mark.parametrize(("wire", "radius"), [(2.0, 6.0), (0.5, 3.0)])
+def test_the_near_side_hides_the_far_side(wire, radius, view):
+    """An outline of the far side, moved off its face, came out beside the turn in front of it: a spur at each turn."""
+    drawing = hlr.draw(spring(0.0, wire, radius), view, scale=1, accuracy=0.05, details=True)
+    points = np.concatenate([line.points for line in drawing.visible])
+    places = np.concatenate([line.points3 for line in drawing.visible])
+    nearer_than_axis = places[:, :2] @ drawing.view.direction[:2]
+    # Past the turns at the bottom and at the top, whose far side is seen above or below the near one.
+    between = (points[:, 1] > 2 * wire) & (points[:, 1] < 3.5 * wire)
+    assert between.sum() > 20
+    assert nearer_than_axis[between].min() > -wire

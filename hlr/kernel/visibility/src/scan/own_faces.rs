@@ -232,22 +232,50 @@ impl OwnFaces<'_> {
         found
     }
 
-    /// Segments of a stretch, from all polygons; None where these contradict one another. It is asked twice: moved off
-    /// its faces for all their polygons, and for those alone that are seen edge-on. Behind its own face, an edge may pass
-    /// from polygons seen at a large angle to polygons seen edge-on: one of the two ways may have a gap there, the other
-    /// has none.
+    /// Segments of a stretch, from all polygons; None where these contradict one another. An outline where its body touches
+    /// itself is asked in its true place as well: moved off its face it may come out beside the turn that hides it, while
+    /// it is not moved behind the next turn, which faces it.
     fn asked<A: Arithmetic>(&self, mesh: &Mesh, exact: &ExactQuery, stretch: usize) -> Option<Vec<Segment>> {
+        // Of each polygon, whether it faces the stretch.
+        let mut polygons: Vec<(usize, bool)> = Vec::new();
+        exact.in_front(exact.tree(), self.reach(mesh, stretch), |t| polygons.push((t, self.faces(mesh, stretch, t))));
+        let moved = self.moved_off::<A>(mesh, exact, stretch, &polygons)?;
+        if polygons.iter().all(|&(_, facing)| !facing) {
+            return Some(moved);
+        }
+        let edge = self.stretches.edge[stretch] as usize;
+        let (slant, of_others) = (self.slant(mesh), self.delta(mesh, edge));
+        let is_own = |t: usize| mesh.triangle_group[t] == mesh.edge_group[edge];
+        let delta = |t: usize| if is_own(t) { slant.delta_of_chords(t) } else { of_others(t) };
+        let as_they_lie = polygons.iter().filter_map(|&(t, _)| Some((t, self.plain(mesh, stretch, t)?)));
+        let mut in_place = Vec::new();
+        let decided = exact.decide_by::<A>(as_they_lie, &delta, &mut in_place);
+        decided.then(|| merged(&moved, &in_place, State::more_hidden))
+    }
+
+    /// The same for these polygons (and whether they face it), of which those of its faces see it moved off them. It is
+    /// asked twice: moved for all of their polygons, and for those alone that are seen edge-on. Behind its own face, an
+    /// edge may pass from polygons seen at a large angle to polygons seen edge-on: one of the two ways may have a gap
+    /// there, the other has none.
+    fn moved_off<A: Arithmetic>(
+        &self,
+        mesh: &Mesh,
+        exact: &ExactQuery,
+        stretch: usize,
+        polygons: &[(usize, bool)],
+    ) -> Option<Vec<Segment>> {
         let slant = self.slant(mesh);
         let of_others = self.delta(mesh, self.stretches.edge[stretch] as usize);
         let facing = |t: usize| self.faces(mesh, stretch, t);
         let delta = |t: usize| if facing(t) { slant.delta_of_itself(t) } else { of_others(t) };
         // Of each polygon the ends of the stretch, and whether they differ between the two ways.
         let mut found: Vec<(usize, Ends, bool)> = Vec::new();
-        exact.in_front(exact.tree(), self.reach(mesh, stretch), |t| match self.off(mesh, stretch, t) {
-            Some(_) if facing(t) => found.extend(self.plain(mesh, stretch, t).map(|ends| (t, ends, false))),
-            Some(ends) => found.push((t, ends, !self.moved(mesh, stretch, t))),
-            None => found.extend(self.plain(mesh, stretch, t).map(|ends| (t, ends, false))),
-        });
+        for &(t, facing) in polygons {
+            match self.off(mesh, stretch, t) {
+                Some(ends) if !facing => found.push((t, ends, !self.moved(mesh, stretch, t))),
+                _ => found.extend(self.plain(mesh, stretch, t).map(|ends| (t, ends, false))),
+            }
+        }
         let mut one = Vec::new();
         if !exact.decide_by::<A>(found.iter().map(|&(t, ends, _)| (t, ends)), &delta, &mut one) {
             return None;

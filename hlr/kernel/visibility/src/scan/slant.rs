@@ -10,7 +10,7 @@
 //! ```
 
 use super::mesh::Mesh;
-use hlr_accuracy::{TOUCHING_AT_RIGHT_ANGLES, TOUCHING_BESIDE_A_LINE};
+use hlr_accuracy::{CONTACT_AT_RIGHT_ANGLES, TOUCHING_AT_RIGHT_ANGLES, TOUCHING_BESIDE_A_LINE};
 use hlr_exact::Point;
 use hlr_exact::arithmetic::Arithmetic;
 use hlr_exact::predicates::Cover;
@@ -60,6 +60,13 @@ impl Slant<'_> {
     pub fn delta_of_itself(&self, t: usize) -> i64 {
         let group = &self.mesh.groups[self.mesh.triangle_group[t] as usize];
         self.slanted(group.delta.min(group.cap), TOUCHING_AT_RIGHT_ANGLES, t)
+    }
+
+    /// How deep beneath a polygon of its own group an outline may lie in its true place, by the chord errors of both. It
+    /// may lie far behind where that is seen edge-on, whatever the thickness of the body.
+    pub fn delta_of_chords(&self, t: usize) -> i64 {
+        let delta = self.mesh.groups[self.mesh.triangle_group[t] as usize].delta as f64;
+        (delta * CONTACT_AT_RIGHT_ANGLES / self.facing(t).max(LEAST)) as i64
     }
 
     /// at_right_angles: of the contact depth.
