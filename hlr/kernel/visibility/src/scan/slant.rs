@@ -14,6 +14,7 @@ use hlr_accuracy::{CONTACT_AT_RIGHT_ANGLES, TOUCHING_AT_RIGHT_ANGLES, TOUCHING_B
 use hlr_exact::Point;
 use hlr_exact::arithmetic::Arithmetic;
 use hlr_exact::predicates::Cover;
+use hlr_exact::snap::DELTA_LIMIT;
 
 /// |N . v|: for polygons seen at less, the tolerance grows no more. The rim of a bore comes from behind its shaft where
 /// the shaft is seen edge-on: with more, one chord of the rim would be missing there.
@@ -66,7 +67,7 @@ impl Slant<'_> {
     /// may lie far behind where that is seen edge-on, whatever the thickness of the body.
     pub fn delta_of_chords(&self, t: usize) -> i64 {
         let delta = self.mesh.groups[self.mesh.triangle_group[t] as usize].delta as f64;
-        (delta * CONTACT_AT_RIGHT_ANGLES / self.facing(t).max(LEAST)) as i64
+        (delta * CONTACT_AT_RIGHT_ANGLES / self.facing(t).max(LEAST)).min(DELTA_LIMIT) as i64
     }
 
     /// at_right_angles: of the contact depth.
