@@ -7,6 +7,8 @@ behind it. So no line at all was drawn where the parts meet.
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import cadquery as cq
 import numpy as np
 import pytest
@@ -15,6 +17,7 @@ import hlr
 from hlr import _kernel
 from support.at_size import ALL_LINES
 
+DATA = Path(__file__).parents[1] / "data"
 ACCURACY = 0.05
 SCALE = 2.0
 OVERLAPS = [0.2, 0.4, 0.6, 0.8, 0.9]
@@ -98,6 +101,12 @@ def test_what_lies_deeper_has_its_line():
     for over in (1.2, 2.0, 4.0):
         exact, found = (seen(shaft_in_a_hub, x * ACCURACY / SCALE, (0.3, 0.5, 2.0)) for x in (0.0, over))
         assert without(exact, found) <= 0.5
+
+
+def test_no_bits_of_rims_are_left_beside_outlines():
+    """Bolts in holes of their own size: a rim is seen up to the outline of its bolt, and no bit of it beyond."""
+    drawing = hlr.draw(DATA / "as1-oc-214.stp", "iso", accuracy=ACCURACY, scale=1.0, **ALL_LINES)
+    assert min(line.length_mm for line in drawing.visible) > 1.0
 
 
 def test_picture(picture):

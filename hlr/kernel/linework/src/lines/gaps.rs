@@ -84,7 +84,8 @@ pub(super) fn still_there(from: f64, to: f64, places: [f64; 2], gone: &[Covered]
 
 /// The stretches (in arc length) that are left out, ascending. Rests shorter than twice the width of coincidence are
 /// left out too: a line that slants off would leave dots. Longer rests, up to twice the drawn line width, are left out
-/// only where they lie under a drawn line themselves.
+/// only where they lie under a drawn line themselves. So are ends that come off a line by hardly more than its width
+/// (`TAIL`): of a rim that touches a shaft, the last bit beside the shaft's outline.
 /// wide: of a hidden line, or a shallow intersection line, whose width is that of the ink.
 pub(super) fn gaps(
     covered: &mut [Covered],
@@ -106,6 +107,12 @@ pub(super) fn gaps(
                 way.iter().all(under) && way.windows(2).all(|w| under(&[0, 1].map(|k| 0.5 * (w[0][k] + w[1][k]))))
             })
     };
+    let comes_off = |from: f64, to: f64, beside: u32| {
+        let [long, far] = TAIL.map(|share| share * widths.same);
+        !wide
+            && to - from <= long
+            && stretch(line, from, to, view).flat.iter().all(|p| off(&sides[beside as usize], p) <= far)
+    };
     let mut merged: Vec<Covered> = Vec::new();
     for &mut one in covered {
         match merged.last_mut() {
@@ -119,18 +126,27 @@ pub(super) fn gaps(
         }
     }
     if let Some(first) = merged.first_mut()
-        && goes(0.0, first.from, [first.by[0]; 2])
+        && (goes(0.0, first.from, [first.by[0]; 2]) || comes_off(0.0, first.from, first.by[0]))
     {
         first.from = 0.0;
     }
     if let Some(last) = merged.last_mut()
-        && goes(last.to, total, [last.by[1]; 2])
+        && (goes(last.to, total, [last.by[1]; 2]) || comes_off(last.to, total, last.by[1]))
     {
         last.to = total;
     }
     let crossing = COVER_CROSSING * if wide { width.max(COVER_INK * widths.same) } else { width };
     merged.retain(|c| c.to - c.from >= crossing || c.to - c.from >= total);
     merged
+}
+
+/// Times the width of coincidence: how long an end may be that is left out though it comes off the line that covers the
+/// rest, and how far.
+const TAIL: [f64; 2] = [8.0, 2.0];
+
+/// Distance of a point from the straight line through a side.
+fn off(s: &Side, p: &[f64; 2]) -> f64 {
+    distance(p, &at(s, along(s, p)))
 }
 
 /// Distance of a point from a side.
