@@ -142,7 +142,7 @@ pub(super) fn gaps(
 
 /// Times the width of coincidence: how long an end may be that is left out though it comes off the line that covers the
 /// rest, and how far.
-const TAIL: [f64; 2] = [8.0, 2.0];
+const TAIL: [f64; 2] = [7.0, 1.9];
 
 /// Distance of a point from the straight line through a side.
 fn off(s: &Side, p: &[f64; 2]) -> f64 {
