@@ -14,9 +14,9 @@ import pytest
 import trimesh
 
 import hlr
-from hlr import _kernel
 from support.at_size import AT_SIZE
 from support.meshes import as_parts
+from support.missing_ink import missing, visible_segments
 from support.side_by_side import side_by_side
 
 ACCURACY = 0.05
@@ -74,24 +74,6 @@ def drawn(model, view):
     return hlr.draw(model, view, accuracy=ACCURACY, **AT_SIZE)
 
 
-def visible_segments(drawing, kinds=None):
-    """(n, 4) the visible lines, from the origin of the model."""
-    chosen = [x.points for x in drawing.lines if x.visible and (kinds is None or x.kind in kinds)]
-    if not chosen:
-        return np.zeros((0, 4))
-    return np.concatenate([np.concatenate([p[:-1], p[1:]], axis=1) for p in chosen]) + np.tile(drawing.origin, 2)
-
-
-def missed(wanted, segments):
-    """Millimetres of wanted segments that are farther from all others than three accuracies."""
-    share = (np.arange(8)[None, :, None] + 0.5) / 8
-    points = (wanted[:, None, :2] * (1.0 - share) + wanted[:, None, 2:] * share).reshape(-1, 2)
-    lengths = np.repeat(np.hypot(*(wanted[:, 2:] - wanted[:, :2]).T) / 8, 8)
-    none, zero = np.zeros(len(points), np.int32), np.zeros(len(segments), np.int32)
-    away = _kernel.nearest(np.ascontiguousarray(points), none, np.ascontiguousarray(segments), zero, 100.0)[0]
-    return lengths[away > 3.0 * ACCURACY].sum()
-
-
 @pytest.mark.parametrize("depths", DEPTHS)
 @pytest.mark.parametrize("model", MODELS)
 def test_no_line_runs_beside_another(model, depths):
@@ -107,7 +89,10 @@ def test_a_line_is_seen_wherever_a_deep_foot_has_one(model):
         shape = model(depths * ACCURACY)
         for view, segments in wanted.items():
             if len(segments):
-                assert missed(segments, visible_segments(drawn(shape, view))) <= MOST_MISSED, (depths, view)
+                assert missing(segments, visible_segments(drawn(shape, view)), 3.0 * ACCURACY) <= MOST_MISSED, (
+                    depths,
+                    view,
+                )
 
 
 def test_picture(picture):

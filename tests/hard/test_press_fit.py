@@ -10,18 +10,19 @@ from __future__ import annotations
 from pathlib import Path
 
 import cadquery as cq
-import numpy as np
 import pytest
 
 import hlr
-from hlr import _kernel
 from support.at_size import ALL_LINES
+from support.missing_ink import missing, visible_segments
 
 DATA = Path(__file__).parents[1] / "data"
 ACCURACY = 0.05
 SCALE = 2.0
 OVERLAPS = [0.2, 0.4, 0.6, 0.8, 0.9]
 """Accuracies. From one on there is an intersection line."""
+APART = 0.25
+"""Millimetres: within this a line stands for another."""
 VIEWS = ["iso", (0.3, 0.5, 2.0), (2.0, 1.0, 1.0), (-1.0, 3.0, 4.0)]
 
 
@@ -62,20 +63,8 @@ def assembly(parts):
 
 
 def seen(model, over, view):
-    """The segments that are seen (n, 4), from the origin of the model."""
     drawing = hlr.draw(assembly(model(over)), view, accuracy=ACCURACY, scale=SCALE, **ALL_LINES)
-    found = [np.concatenate([line.points[:-1], line.points[1:]], axis=1) for line in drawing.visible]
-    return np.concatenate(found) + np.tile(drawing.origin, 2)
-
-
-def without(wanted, segments):
-    """Millimetres of wanted segments that have no other one within a quarter of a millimetre."""
-    share = (np.arange(8)[None, :, None] + 0.5) / 8
-    points = (wanted[:, None, :2] * (1.0 - share) + wanted[:, None, 2:] * share).reshape(-1, 2)
-    lengths = np.repeat(np.hypot(*(wanted[:, 2:] - wanted[:, :2]).T) / 8, 8)
-    none, zero = np.zeros(len(points), np.int32), np.zeros(len(segments), np.int32)
-    away = _kernel.nearest(np.ascontiguousarray(points), none, np.ascontiguousarray(segments), zero, 100.0)[0]
-    return lengths[away > 0.25].sum()
+    return visible_segments(drawing)
 
 
 @pytest.mark.parametrize("view", VIEWS)
@@ -93,14 +82,14 @@ def test_the_rim_is_seen_as_where_both_are_of_one_size(model, most, view):
     exact = seen(model, 0.0, view)
     for accuracies in OVERLAPS:
         found = seen(model, accuracies * ACCURACY / SCALE, view)
-        assert without(exact, found) <= most, accuracies
-        assert without(found, exact) == 0.0, accuracies
+        assert missing(exact, found, APART) <= most, accuracies
+        assert missing(found, exact, APART) == 0.0, accuracies
 
 
 def test_what_lies_deeper_has_its_line():
     for over in (1.2, 2.0, 4.0):
         exact, found = (seen(shaft_in_a_hub, x * ACCURACY / SCALE, (0.3, 0.5, 2.0)) for x in (0.0, over))
-        assert without(exact, found) <= 0.5
+        assert missing(exact, found, APART) <= 0.5
 
 
 def test_no_bits_of_rims_are_left_beside_outlines():

@@ -263,6 +263,22 @@ mod tests {
     }
 
     #[test]
+    fn an_end_that_comes_off_by_little_goes_too_but_none_beyond_the_end_of_the_other_line() {
+        let widths = Widths { same: 0.02, under: 0.02 };
+        let straight = || line(true, &[[0.0, 0.0], [5.0, 0.0], [10.0, 0.0]]);
+        let left = |points: &[[f64; 2]]| {
+            let rest = drawn(vec![straight(), line(true, points)], &[0, 1], widths, &PARALLEL_VIEW);
+            rest[1..].iter().map(Polyline::length).sum::<f64>()
+        };
+        // It comes off within the accuracy, which is twice the width.
+        assert_eq!(left(&[[2.0, 0.0], [4.0, 0.0], [4.16, 0.036]]), 0.0);
+        assert_eq!(left(&[[4.84, 0.036], [5.0, 0.0], [6.0, 0.0]]), 0.0);
+        assert!(left(&[[2.0, 0.0], [4.0, 0.0], [4.16, 0.05]]) > 0.05);
+        assert!(left(&[[2.0, 0.0], [4.0, 0.0], [4.5, 0.036]]) > 0.15);
+        assert!((left(&[[2.0, 0.0], [10.0, 0.0], [10.13, 0.0]]) - 0.13).abs() < 0.03);
+    }
+
+    #[test]
     fn crossing_lines_are_left_alone() {
         let lines = vec![line(true, &[[0.0, 0.0], [10.0, 0.0]]), line(false, &[[0.0, -2.0], [10.0, 2.0]])];
         let rest = drawn(lines.clone(), &[0, 1], Widths { same: 0.01, under: 0.01 }, &PARALLEL_VIEW);

@@ -85,7 +85,7 @@ pub(super) fn still_there(from: f64, to: f64, places: [f64; 2], gone: &[Covered]
 /// The stretches (in arc length) that are left out, ascending. Rests shorter than twice the width of coincidence are
 /// left out too: a line that slants off would leave dots. Longer rests, up to twice the drawn line width, are left out
 /// only where they lie under a drawn line themselves. So are ends that come off a line by hardly more than its width
-/// (`TAIL`): of a rim that touches a shaft, the last bit beside the shaft's outline.
+/// (`END_OFF`): of a rim that touches a shaft, the last bit beside the shaft's outline.
 /// wide: of a hidden line, or a shallow intersection line, whose width is that of the ink.
 pub(super) fn gaps(
     covered: &mut [Covered],
@@ -108,10 +108,11 @@ pub(super) fn gaps(
             })
     };
     let comes_off = |from: f64, to: f64, beside: u32| {
-        let [long, far] = TAIL.map(|share| share * widths.same);
-        !wide
-            && to - from <= long
-            && stretch(line, from, to, view).flat.iter().all(|p| off(&sides[beside as usize], p) <= far)
+        // The line that covers the rest may bend there.
+        let (at, by) = (beside as usize, sides[beside as usize].line);
+        let around = || sides[at.saturating_sub(1)..sides.len().min(at + 2)].iter().filter(|side| side.line == by);
+        let near = |p: &[f64; 2]| around().any(|side| away(side, p) <= END_OFF * widths.same);
+        !wide && to - from <= END_LONG * widths.same && stretch(line, from, to, view).flat.iter().all(near)
     };
     let mut merged: Vec<Covered> = Vec::new();
     for &mut one in covered {
@@ -140,14 +141,10 @@ pub(super) fn gaps(
     merged
 }
 
-/// Times the width of coincidence: how long an end may be that is left out though it comes off the line that covers the
-/// rest, and how far.
-const TAIL: [f64; 2] = [7.0, 1.9];
-
-/// Distance of a point from the straight line through a side.
-fn off(s: &Side, p: &[f64; 2]) -> f64 {
-    distance(p, &at(s, along(s, p)))
-}
+/// Times the width of coincidence, which is half of the accuracy: how long an end may be that is left out though it comes
+/// off the line that covers the rest, and how far off it may come. So it has that line within the accuracy.
+const END_LONG: f64 = 7.0;
+const END_OFF: f64 = 1.9;
 
 /// Distance of a point from a side.
 fn away(s: &Side, p: &[f64; 2]) -> f64 {

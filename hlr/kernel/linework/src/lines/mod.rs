@@ -43,6 +43,8 @@ pub mod turned;
 #[cfg(test)]
 mod tests;
 
+use hlr_brep::geometry::vector::{cross, dot, sub, unit};
+
 /// A line as points on paper and the same points in space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polyline {
@@ -66,6 +68,22 @@ impl View {
     pub fn depth(&self, p: &[f64; 3]) -> f64 {
         let q = [0, 1, 2].map(|k| p[k] - self.origin[k]);
         q[0] * self.away[0] + q[1] * self.away[1] + q[2] * self.away[2]
+    }
+
+    /// Two directions across the line of sight, at right angles.
+    pub fn across(&self) -> [[f64; 3]; 2] {
+        let least = (0..3).min_by(|&i, &j| self.away[i].abs().total_cmp(&self.away[j].abs())).unwrap_or(0);
+        let right = cross(&self.away, &[0, 1, 2].map(|k| if k == least { 1.0 } else { 0.0 }));
+        let right = unit(&right).unwrap_or([0.0; 3]);
+        [right, cross(&right, &self.away)]
+    }
+
+    /// Where a point is in the image, along two directions `across`, and what a length there is divided by; None beside
+    /// the eye or behind it.
+    pub fn seen(&self, p: &[f64; 3], across: &[[f64; 3]; 2]) -> Option<([f64; 2], f64)> {
+        let depth = if self.perspective { self.depth(p) } else { 1.0 };
+        let from = sub(p, &self.origin);
+        (depth > 0.0).then(|| (across.map(|way| dot(&from, &way) / depth), depth))
     }
 
     /// The parameter in space of the point at parameter t on paper, on a segment between depths za and zb.

@@ -262,16 +262,10 @@ impl Chord {
 
 /// None where an end lies beside the eye or behind it.
 fn in_image(model: &Model, e: usize) -> Option<Chord> {
-    let view = &model.view;
-    let least = (0..3).min_by(|&i, &j| view.away[i].abs().total_cmp(&view.away[j].abs())).unwrap_or(0);
-    let right = cross(&view.away, &[0, 1, 2].map(|k| if k == least { 1.0 } else { 0.0 }));
-    let right = unit(&right).unwrap_or([0.0; 3]);
-    let up = cross(&right, &view.away);
+    let across = model.view.across();
     let seen = |v: i32| -> Option<([f64; 2], f64)> {
-        let from: Vector = sub(&model.points[v as usize], &view.origin);
-        let depth = if view.perspective { dot(&from, &view.away) } else { 1.0 };
-        let place = [dot(&from, &right) / depth, dot(&from, &up) / depth];
-        (depth > 0.0).then_some((place, OUTLINE_BEHIND * model.chord / depth))
+        let (place, shorter) = model.view.seen(&model.points[v as usize], &across)?;
+        Some((place, OUTLINE_BEHIND * model.chord / shorter))
     };
     let [a, b] = model.edges[e];
     let ((a, off), (b, other)) = (seen(a)?, seen(b)?);

@@ -10,17 +10,13 @@
 //!       ( turn )
 //! ```
 
-use std::f64::consts::FRAC_1_SQRT_2;
-
 use super::trace::Silhouette;
 use crate::lines::View;
-use hlr_brep::geometry::vector::{Vector, cross, dot, sub, unit};
+use hlr_brep::geometry::vector::{Vector, dot};
 use hlr_exact::snap::Grid;
 use hlr_visibility::boxes::aabb::{Aabb, Item};
 use hlr_visibility::boxes::tree::Tree;
-
-/// Cosine of the angle between the normals of two outlines that face one another: less than this.
-const FACING: f64 = -0.5;
+use hlr_visibility::scan::own_faces::FACING;
 
 /// Of the largest depth: what is nearer to the eye is left out, for its image is too large.
 const NEAR: f64 = 1e-3;
@@ -59,22 +55,19 @@ pub fn facing(lines: &[Silhouette], group: &[i32], closed: &[bool], view: &View,
 
 /// The box of each chord in the image, wider by half of `reach`; those too near to the eye are taken out.
 fn on_paper(chords: &mut Vec<Chord>, view: &View, reach: f64) -> Vec<Item> {
-    let Some([right, up]) = axes(view) else { return Vec::new() };
     if view.perspective {
         let farthest = chords.iter().flat_map(|chord| chord.ends).map(|p| view.depth(p)).fold(0.0, f64::max);
         chords.retain(|chord| chord.ends.iter().all(|p| view.depth(p) > NEAR * farthest));
     }
+    let across = view.across();
     let corners: Vec<Vector> = chords
         .iter()
         .flat_map(|chord| {
             let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-            for point in chord.ends {
-                let shrunk = if view.perspective { 1.0 / view.depth(point) } else { 1.0 };
-                let off = sub(point, &view.origin);
-                for (k, axis) in [&right, &up].into_iter().enumerate() {
-                    let at = dot(&off, axis) * shrunk;
-                    low[k] = low[k].min(at - 0.5 * reach * shrunk);
-                    high[k] = high[k].max(at + 0.5 * reach * shrunk);
+            for (place, shorter) in chord.ends.iter().filter_map(|point| view.seen(point, &across)) {
+                for k in 0..2 {
+                    low[k] = low[k].min(place[k] - 0.5 * reach / shorter);
+                    high[k] = high[k].max(place[k] + 0.5 * reach / shorter);
                 }
             }
             [low, high].map(|[x, y]| [x, y, 0.0])
@@ -87,13 +80,6 @@ fn on_paper(chords: &mut Vec<Chord>, view: &View, reach: f64) -> Vec<Item> {
         (Aabb { low: low.map(|c| c - 1), high: high.map(|c| c + 1) }, k)
     };
     corners.chunks_exact(2).zip(0..).map(boxed).collect()
-}
-
-/// Two directions across the line of sight, at right angles.
-fn axes(view: &View) -> Option<[Vector; 2]> {
-    let across = if view.away[2].abs() < FRAC_1_SQRT_2 { [0.0, 0.0, 1.0] } else { [1.0, 0.0, 0.0] };
-    let right = unit(&cross(&view.away, &across))?;
-    Some([right, cross(&right, &view.away)])
 }
 
 impl Chord<'_> {

@@ -46,8 +46,9 @@ pub struct OwnFaces<'a> {
 /// in front of it; if they lie in front of it elsewhere, they really hide it.
 const EDGE_ON: f64 = 0.5;
 
-/// Cosine of the angle between the normal of an outline and that of a polygon that faces it: less than this.
-const FACING: f64 = -0.5;
+/// Cosine of the angle between the normal of an outline and that of a polygon, or of another outline, that faces it: less
+/// than this.
+pub const FACING: f64 = -0.5;
 
 const VISIBLE: u8 = Beside::Visible as u8;
 const HIDDEN: u8 = Beside::Hidden as u8;
@@ -339,9 +340,9 @@ impl OwnFaces<'_> {
     /// faces at the outline do not, however their triangles lie.
     pub fn faces(&self, mesh: &Mesh, stretch: usize, t: usize) -> bool {
         let (edge, group) = (self.stretches.edge[stretch] as usize, mesh.triangle_group[t]);
-        if mesh.edge_group[edge] != group
+        if !self.is_replaced(stretch)
+            || mesh.edge_group[edge] != group
             || !mesh.groups[group as usize].cull
-            || !self.is_replaced(stretch)
             || !mesh.incident(edge).is_empty()
         {
             return false;
