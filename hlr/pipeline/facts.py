@@ -7,15 +7,20 @@ import numpy as np
 from hlr.request.effect import Facts, Planner
 from hlr.scene.scene import Scene
 from hlr.source.model import Source, Tessellation
-from hlr.tables.readers import is_brep
+from hlr.tables.readers import holds_meshes, is_brep
 
 
 def note_reading(planner: Planner, source: Source) -> None:
     """Decide on the readers, and state what reading took."""
-    brep = is_brep(source.kind)
-    facts, count = Facts(kind=source.kind), len(source.names())
-    planner.state(facts, "B-rep reader", "mesh reader")
-    planner.spent("B-rep reader" if brep else "mesh reader", **{"brep_parts" if brep else "mesh_parts": count})
+    count = len(source.names())
+    meshes = 0 if is_brep(source.kind) else count
+    if is_brep(source.kind) and holds_meshes(source.kind):
+        meshes = sum([not info.faces and not info.edges for info in source.infos()])
+    planner.state(Facts(kind=source.kind), "B-rep reader", "mesh reader")
+    if meshes < count:
+        planner.spent("B-rep reader", brep_parts=count - meshes)
+    if meshes:
+        planner.spent("mesh reader", mesh_parts=meshes)
 
 
 def note_meshing(planner: Planner, scene: Scene) -> None:
@@ -24,8 +29,13 @@ def note_meshing(planner: Planner, scene: Scene) -> None:
     if surfaces is None:
         curved = planar = triangles = bent = 0
     else:
-        planar, triangles = surfaces.planar_faces, len(scene.triangles)
-        curved, bent = len(surfaces.planar) - planar, 0 if planar else triangles
+        planar, triangles, faces = surfaces.planar_faces, len(scene.triangles), len(surfaces.planar)
+        if not scene.has_faces.all():
+            # A mesh beside B-reps has one face, of which nothing is known.
+            meshes = ~scene.has_faces
+            faces -= int(np.diff(surfaces.first, append=faces)[meshes].sum())
+            triangles -= int(np.count_nonzero(meshes[scene.triangle_part]))
+        curved, bent = faces - planar, 0 if planar else triangles
         if curved and planar:
             face = surfaces.first[scene.triangle_part] + scene.triangle_face
             bent = triangles - int(np.count_nonzero(surfaces.planar[face]))

@@ -32,7 +32,7 @@ def _of_readers(fits: Callable[[Reader], bool]) -> OfSources:
     return OfSources(file_titles(fits), fits)
 
 
-_MESHES = OfSources("meshes", lambda reader: not reader.brep, somewhat=True)
+_MESHES = OfSources("meshes", lambda reader: not reader.brep or reader.meshes, somewhat=True)
 _CAD_MODELS = OfSources("CAD models", lambda reader: reader.brep)
 
 OF_SOURCES: dict[str, OfSources] = {

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from hlr.request.effect import ASKED, SCENE, Answer, Effect, Facts
 from hlr.request.options import Options
 from hlr.tables.line_classes import LINE_CLASSES, LineClass, counted
-from hlr.tables.readers import is_brep, of_kind
+from hlr.tables.readers import holds_meshes, is_brep, of_kind
 
 DEEP_GROUPS, DEEP_EDGES = 400, 8000
 """With fewer surfaces or edges the depth pyramid costs more than it saves: measured (`hlr/request/README.md`)."""
@@ -69,7 +69,7 @@ def _brep(f: Facts, _o: Options) -> Answer:
 
 
 def _mesh(f: Facts, _o: Options) -> Answer:
-    return not is_brep(f.kind), f"the source is {_noun(f.kind)}"
+    return holds_meshes(f.kind), f"the source is {_noun(f.kind)}"
 
 
 def _fine(f: Facts, options: Options) -> Answer:

@@ -30,7 +30,7 @@ def open_source(
 
     Args:
         thing: the name of a file, a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object, a pair (vertices
-            (n, 3), faces (m, 3)), a list of CAD objects or of meshes, or a dict that gives them names. Whatever
+            (n, 3), faces (m, 3)), a list of CAD objects and meshes, or a dict that gives them names. Whatever
             follows the protocol `Source` is open already and stays as it is.
         var: the variable of a script to draw, instead of what it shows.
         annotations: faces of annotation, hidden or supplemental in a STEP file, count as well.
@@ -58,11 +58,10 @@ def open_source(
 
 def _cure(thing: object) -> str:
     """What to pass instead of an object that nothing opens."""
-    from hlr.source.cad.objects import is_shape_like
     from hlr.source.collected import why_not_read
-    from hlr.source.mesh.open_objects import are_meshes
+    from hlr.source.joined import are_both
 
-    if (why := why_not_read(thing, (is_shape_like, are_meshes))) is not None:
+    if (why := why_not_read(thing, are_both)) is not None:
         return why
     missing = list(missing_of_source(thing))
     if len(missing) <= FEW:

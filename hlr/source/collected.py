@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence, ValuesView
+from collections.abc import Callable, Iterator, Mapping, ValuesView
 from collections.abc import Set as AbstractSet
 from typing import Any
 
@@ -26,6 +26,33 @@ def is_made_of(thing: Any, is_one: Callable[[Any], bool], within: tuple[int, ...
         return False
     items = [item for item in items_of(thing) if not is_nothing(item)]
     return bool(items) and all(is_made_of(item, is_one, (*within, id(thing))) for item in items)
+
+
+def only(thing: Any, is_one: Callable[[Any], bool]) -> Any:
+    """What is of one kind, of a list or a dict and of those inside of it; None: nothing is.
+
+    thing: `is_made_of` it and others, so no list or dict holds itself
+    """
+    if is_one(thing):
+        return thing
+    if isinstance(thing, Mapping):
+        return _only_named(thing, is_one) or None
+    if not is_collection(thing):
+        return None
+    return [own for item in thing if (own := only(item, is_one)) is not None] or None
+
+
+def _only_named(thing: Mapping[Any, Any], is_one: Callable[[Any], bool]) -> dict[Any, Any]:
+    found: dict[Any, Any] = {}
+    for key, item in thing.items():
+        own = only(item, is_one)
+        if isinstance(own, dict) and len(own) == 1 < sum(not is_nothing(each) for each in items_of(item)):
+            # Alone it would be named by the outer key, which others that are left out here have as well.
+            ((inner, single),) = own.items()
+            found[f"{key}/{inner}"] = single
+        elif own is not None:
+            found[key] = own
+    return found
 
 
 def items_of(thing: Any) -> list[Any]:
@@ -73,10 +100,10 @@ def name_under(key: str, name: str, own: str, alone: bool) -> str:
     return key if alone or name in (own, key) else f"{key}/{name}"
 
 
-def why_not_read(thing: Any, kinds: Sequence[Callable[[Any], bool]]) -> str | None:
+def why_not_read(thing: Any, is_read: Callable[[Any], bool]) -> str | None:
     """What is wrong with a set, an iterator, a dict, or a list of which some is read; None: it is something else.
 
-    kinds: whether an item is of one of the kinds that can be drawn, of which a list or a dict holds one
+    is_read: whether an item can be drawn
     """
     if isinstance(thing, AbstractSet):
         return "it has no order: pass a list, or a dict of names and shapes"
@@ -84,10 +111,6 @@ def why_not_read(thing: Any, kinds: Sequence[Callable[[Any], bool]]) -> str | No
         return "it can be read only once: pass a list of what it gives"
     if is_nothing(thing) and thing is not None:
         return "it holds no shapes"
-
-    def is_read(item: Any) -> bool:
-        return any(is_kind(item) for is_kind in kinds)
-
     if not isinstance(thing, Mapping) and not (is_collection(thing) and any(map(is_read, items_of(thing)))):
         return None
     return _unread(thing, is_read, (id(thing),))
@@ -95,9 +118,7 @@ def why_not_read(thing: Any, kinds: Sequence[Callable[[Any], bool]]) -> str | No
 
 def _unread(thing: Any, is_read: Callable[[Any], bool], within: tuple[int, ...]) -> str:
     """What in a list or a dict, or in those inside of it, cannot be drawn. within: ids of it and of what it is in."""
-    bad = next((item for item in items_of(thing) if not is_nothing(item) and not is_read(item)), None)
-    if bad is None:
-        return "it holds both CAD objects and meshes: draw them apart, or make meshes of the CAD objects first"
+    bad = next(item for item in items_of(thing) if not is_nothing(item) and not is_read(item))
     if id(bad) in within:
         return f"{type(bad).__name__} in it holds itself"
     if is_collection(bad):

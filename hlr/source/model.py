@@ -203,7 +203,7 @@ class Source(Protocol):
     @property
     def kind(self) -> str:
         """As `hlr.tables.readers` has it: step, iges, brep, script, stl, obj, ply, off, 3mf or glb; object for other
-        B-reps, mesh for other triangles. A kind that no reader has counts as a mesh."""
+        B-reps, mesh for other triangles, mixed for both. A kind that no reader has counts as a mesh."""
 
     @property
     def frame(self) -> Frame:

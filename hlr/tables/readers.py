@@ -36,6 +36,7 @@ class Reader:
     takes     what the entry is given besides, by name: kind; var and parameters, of a script; annotations and
               hidden_objects, whether what a file hides is read
     brep      sources have surfaces and edges, not only triangles
+    meshes    of sources with surfaces: they have parts without any as well
     noun      one such source, for people: "a STEP file"
     cached    what was read is kept, and is not read again (of a `hlr.source.cad.brep_source.BrepSource` alone)
     needs     the Python package that must be installed, where hlr itself does not
@@ -50,6 +51,7 @@ class Reader:
     fits: str = ""
     takes: tuple[str, ...] = ()
     brep: bool = False
+    meshes: bool = False
     noun: str = ""
     cached: bool = False
     needs: str = ""
@@ -122,6 +124,15 @@ READERS: Table[Reader] = Table(
             "hlr.source.mesh.open_objects:open_meshes",
             fits="hlr.source.mesh.open_objects:are_meshes",
         ),
+        Reader(
+            "a list or a dict of CAD objects and meshes",
+            "mixed",
+            "hlr.source.joined:open_both",
+            fits="hlr.source.joined:are_both",
+            brep=True,
+            meshes=True,
+            noun="CAD objects and meshes",
+        ),
     )
 )
 """All readers, by title."""
@@ -174,6 +185,12 @@ def is_brep(kind: str) -> bool:
     """Whether sources of this kind have surfaces and edges; those of an unknown kind count as meshes."""
     reader = of_kind(kind)
     return reader is not None and reader.brep
+
+
+def holds_meshes(kind: str) -> bool:
+    """Whether sources of this kind have parts that are meshes; those of an unknown kind are nothing else."""
+    reader = of_kind(kind)
+    return reader is None or not reader.brep or reader.meshes
 
 
 def file_titles(fits: Callable[[Reader], bool] = lambda _: True) -> str:

@@ -158,15 +158,6 @@ def test_what_is_refused_says_why(thing, why):
         open_source(thing())
 
 
-@pytest.mark.parametrize(
-    "together", [list, lambda both: {"a": both[:1], "b": {"c": both[1]}}, lambda both: {"a": both}]
-)
-def test_meshes_and_cad_objects_in_one_list_are_refused(together):
-    cq = pytest.importorskip("cadquery")
-    with pytest.raises(SourceError, match="it holds both CAD objects and meshes: draw them apart"):
-        open_source(together([cq.Workplane().box(1, 2, 3), block()]))
-
-
 def test_meshes_never_load_a_cad_kernel():
     code = (
         "import sys, trimesh; from hlr.source import open_source; box = trimesh.creation.box()\n"

@@ -26,6 +26,7 @@ from hlr.request.effect import Facts
 from hlr.request.options import Options, Request
 from hlr.request.shown_views import ShownView
 from hlr.source.cad.brep_source import BrepSource
+from hlr.source.joined import JoinedSource
 from hlr.source.mesh.mesh_source import MeshSource
 from hlr.source.model import Source
 from hlr.source.selection import matching, open_selected
@@ -156,7 +157,7 @@ def _cut_for(shown: ShownView, source: Source, options: Options) -> _Cut | None:
     view, place = shown.view, shown.place
     if place is None:
         return None
-    known = _KNOWN.setdefault(source, {}) if isinstance(source, BrepSource | MeshSource) else {}
+    known = _KNOWN.setdefault(source, {}) if isinstance(source, BrepSource | MeshSource | JoinedSource) else {}
     # True and 1.0 are equal.
     key = directed(view)[1], place is True, place, tuple(options.uncut)
     if key not in known:
@@ -218,7 +219,7 @@ def _notes(drawing: Drawing, session: Session, cut: _Cut, name: str) -> list[Not
     are_open = {cut.source.whose[part] for part, is_cut in cut.source.open.items() if is_cut}
     at_plane = _at_plane(session, cut)
     # A body of a mesh that has no cut face only touches the plane.
-    unhatchable = are_open if isinstance(cut.source.source, MeshSource) else cut.source.cut - hatched
+    unhatchable = are_open | (cut.source.cut - hatched - cut.source.meshes)
     unhatched = sorted(unhatchable & at_plane)
     if cut.planes.touching:
         text = f"the plane of section {name} only touches the model: nothing is taken away."

@@ -22,7 +22,7 @@ from hlr.request.options import Options, SectionPlace, Vector, View
 from hlr.request.section import axis_of, is_stepped
 from hlr.source.model import PartMesh, Source
 from hlr.source.stepped import Stepped
-from hlr.tables.readers import is_brep
+from hlr.tables.readers import holds_meshes, is_brep
 
 ALONG = 1e-9
 """How much less than 1 the share of an axis may be in a direction along it."""
@@ -172,8 +172,8 @@ def _plane_of(
     normal, up = np.array(camera.direction), np.array(source.frame.up)
     given = None if place is True else np.array(_point(place, view)) / unit @ up
     at = 0.5 * (low + high) if given is None else float(given @ normal)
-    brep = is_brep(source.kind)
-    near = nearness(bounds, brep) + (0.0 if brep else float(np.abs(normal) @ _rounding(meshed)))
+    rounding = float(np.abs(normal) @ _rounding(meshed)) if holds_meshes(source.kind) else 0.0
+    near = nearness(bounds, is_brep(source.kind)) + rounding
     name = directed(view)[0]
     if not low - near <= at <= high + near or at <= low + near:
         what = "misses the model" if at > high or at < low - near else "leaves nothing of the model"

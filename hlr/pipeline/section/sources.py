@@ -16,6 +16,7 @@ from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.half_space import UncuttableError, bare_error
 from hlr.source.cad.kernel_cut import BARE, SAME, KernelCut, NotHereError
 from hlr.source.cad.parts import Leaf, Part
+from hlr.source.joined import JoinedSource
 from hlr.source.mesh.mesh_source import MeshSource
 from hlr.source.model import Source
 from hlr.source.stepped import Stepped
@@ -31,6 +32,7 @@ class CutSource:
     uncut    names of all those that stay whole
     failed   why those stay whole, by name, that cannot be cut
     open     names of those parts of the source that are no bodies, and so have no cut faces; and whether they are cut
+    meshes   names of those parts of the whole model that are meshes
     """
 
     source: Source
@@ -40,6 +42,7 @@ class CutSource:
     uncut: frozenset[str] = frozenset()
     failed: Mapping[str, UncuttableError] = field(default_factory=dict)
     open: Mapping[str, bool] = field(default_factory=dict)
+    meshes: frozenset[str] = frozenset()
 
 
 def cut_source(source: Source, planes: Planes, uncut: Collection[str] = ()) -> CutSource:
@@ -53,6 +56,32 @@ def cut_source(source: Source, planes: Planes, uncut: Collection[str] = ()) -> C
     """
     if planes.touching:
         return CutSource(source, {name: name for name in source.names()}, frozenset())
+    found = _cut_joined(source, planes, uncut) if isinstance(source, JoinedSource) else _cut(source, planes, uncut)
+    if found is None:
+        raise OptionError(f"the section leaves nothing of {source.name}: move its plane, or leave it out")
+    return found
+
+
+def _cut_joined(source: JoinedSource, planes: Planes, uncut: Collection[str]) -> CutSource | None:
+    """CAD objects and meshes, each without what lies before the planes; None: nothing is left."""
+    cad, meshes = _cut(source.cad, planes, uncut), _cut(source.meshes, planes, uncut)
+    if cad is None or meshes is None:
+        return cad or meshes
+    assert isinstance(cad.source, BrepSource) and isinstance(meshes.source, MeshSource)
+    return CutSource(
+        source.with_both(cad.source, meshes.source),
+        cad.whose | meshes.whose,
+        cad.cut | meshes.cut,
+        cad.through | meshes.through,
+        cad.uncut | meshes.uncut,
+        cad.failed,
+        meshes.open,
+        meshes.meshes,
+    )
+
+
+def _cut(source: Source, planes: Planes, uncut: Collection[str]) -> CutSource | None:
+    """CAD objects, or meshes; None: nothing is left."""
     if not isinstance(source, BrepSource | MeshSource):
         raise SourceError(f"{source.name} cannot be cut for a section: draw a CAD model, or a mesh.")
     whole: list[str] = []
@@ -75,7 +104,7 @@ def cut_source(source: Source, planes: Planes, uncut: Collection[str] = ()) -> C
     if isinstance(source, MeshSource):
         found = _cut_meshes(source, planes, whole, crossed)
     if found is None:
-        raise OptionError(f"the section leaves nothing of {source.name}: move its plane, or leave it out")
+        return None
     return replace(found, through=frozenset(through | found.failed.keys()), uncut=frozenset({*uncut, *found.failed}))
 
 
@@ -254,4 +283,4 @@ def _cut_meshes(source: MeshSource, planes: Planes, whole: list[str], crossed: l
     parts_of = {name: part for name, (part, _) in whose.items()}
     found = {name: cut[part][k] for name, (part, k) in whose.items() if part in cut}
     are_open = {name: piece.cut for name, piece in found.items() if not piece.closed}
-    return CutSource(left, parts_of, frozenset(crossed), open=are_open)
+    return CutSource(left, parts_of, frozenset(crossed), open=are_open, meshes=frozenset(parts))

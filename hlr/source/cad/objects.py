@@ -38,10 +38,10 @@ def open_object(thing: Any, name: str = "") -> BrepSource:
 
 def is_shape_like(thing: Any) -> bool:
     """Whether `to_leaves` accepts an object; judged by type and attributes, without importing any CAD package."""
-    return is_made_of(thing, _is_object)
+    return is_made_of(thing, is_object)
 
 
-def _is_object(thing: Any) -> bool:
+def is_object(thing: Any) -> bool:
     """Whether it is an object of a CAD package that is drawn."""
     package = package_of(thing)
     if package == "cadquery":
@@ -70,7 +70,7 @@ def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float 
         return _inside(label, leaves) if getattr(thing, "children", ()) else leaves
     if is_mesh(thing):
         raise SourceError(
-            f"A mesh ({type(thing).__name__}) is drawn apart from CAD objects: make meshes of them first."
+            f"A mesh ({type(thing).__name__}) stands beside what is neither a CAD object nor a mesh: leave that out."
         )
     if isinstance(thing, Mapping):
         return [leaf for key, item in thing.items() for leaf in _of_key(str(key) or name, item, color, opacity)]

@@ -10,7 +10,7 @@ exists is drawn:
 3. the variable `result`;
 4. the solid that was assigned last, else the last face, else the last shape or mesh.
 
-A remark in the drawing names the choice. Meshes are drawn where none of it is a CAD object. What stands under
+A remark in the drawing names the choice. What stands under
 `if __name__ == "__main__":` is run where nothing is there to draw without it, or where it shows something and nothing
 else is shown or called `result` (`main_block`).
 """
@@ -25,21 +25,22 @@ from hlr.drawing.notes import Note
 from hlr.errors import SourceError
 from hlr.request.options import Parameter
 from hlr.source.cad.brep_source import BrepSource
-from hlr.source.cad.objects import is_shape_like, to_leaves
-from hlr.source.cad.occt_import import load_occt
+from hlr.source.cad.objects import is_object, to_leaves
+from hlr.source.cad.parts import Leaf
 from hlr.source.cad.script_choice import RESULT_VARIABLE, is_shape, objects_to_draw, passes
 from hlr.source.cad.script_run import run
-from hlr.source.cad.source_builder import build_source
 from hlr.source.cad.viewers import Showing, Shown
-from hlr.source.collected import left_out_of, why_not_read
+from hlr.source.collected import left_out_of, only, why_not_read
+from hlr.source.joined import JoinedSource, are_both, source_of_both
 from hlr.source.mesh.mesh_source import MeshSource
-from hlr.source.mesh.open_objects import are_meshes, mesh_source, read_meshes
+from hlr.source.mesh.objects import Meshes
+from hlr.source.mesh.open_objects import is_mesh, read_meshes
 from hlr.tables.entry import listed
 
 
 def open_script(
     path: Path, var: str | None = None, parameters: Mapping[str, Parameter] | None = None
-) -> BrepSource | MeshSource:
+) -> BrepSource | MeshSource | JoinedSource:
     """Run a script; its parts are the objects that it shows, or the variable named `var`. Meshes load no OpenCASCADE.
 
     parameters: values for variables of the script, as `hlr.source.cad.script_parameters` says.
@@ -53,30 +54,24 @@ def open_script(
     showing = Showing()
     values = run(path, showing, parameters or {}, var)
     chosen, why = objects_to_draw(path, showing.shown, values, var)
-    meshes = {type(thing).__name__ for thing, _, _ in chosen if passes(thing, are_meshes)}
-    of_meshes = bool(meshes) and not any(passes(thing, is_shape_like) for thing, _, _ in chosen)
-    if not of_meshes:
-        load_occt()
-    read: list[Any] = []
+    leaves: list[Leaf] = []
+    meshes: list[Meshes] = []
     left_out: dict[str, SourceError] = {}
     for thing, name, look in chosen:
+        both = passes(thing, are_both)
+        cad, triangles = (only(thing, is_object), only(thing, is_mesh)) if both else (thing, None)
         try:
-            read.extend((read_meshes if of_meshes else to_leaves)(thing, name or path.stem, *look))
+            leaves += [] if cad is None else to_leaves(cad, name or path.stem, *look)
+            meshes += [] if triangles is None else read_meshes(triangles, name or path.stem, *look)
         except SourceError as error:
             left_out[type(thing).__name__] = error
-    if left_out and not read:
+    if left_out and not leaves and not meshes:
         raise SourceError(f"{path.name} shows something that is no shape: {next(iter(left_out.values()))}")
-    if not read:
+    if not leaves and not meshes:
         raise SourceError(_nothing_shown(path, values, [type(thing).__name__ for thing, _, _ in chosen]))
-    if others := [kind for kind in left_out if kind not in meshes]:
-        why += f", without what is no shape ({', '.join(others)})"
-    if len(others) < len(left_out):
-        why += (
-            f", without meshes ({', '.join(sorted(meshes & left_out.keys()))}), which are drawn apart from CAD objects"
-        )
-    if of_meshes:
-        return mesh_source(path.name, read, _remarks(path, chosen, why))
-    return build_source(path.name, "script", read, _remarks(path, chosen, why))
+    if left_out:
+        why += f", without what is no shape ({', '.join(left_out)})"
+    return source_of_both(path.name, "script", leaves, meshes, _remarks(path, chosen, why))
 
 
 def _remarks(path: Path, chosen: list[Shown], why: str) -> list[Note]:
@@ -91,6 +86,6 @@ def _nothing_shown(path: Path, values: dict[str, Any], empty: list[str]) -> str:
         what = listed(list(dict.fromkeys(empty)), "and")
         return f"{path.name} shows something without a shape in it ({what}): there is nothing to draw."
     if RESULT_VARIABLE in values and not is_shape(value := values[RESULT_VARIABLE]):
-        why = why_not_read(value, (is_shape_like, are_meshes)) or "assign a shape to it"
+        why = why_not_read(value, are_both) or "assign a shape to it"
         return f'The variable "{RESULT_VARIABLE}" of {path.name} is no shape, but {type(value).__name__}: {why}.'
     return f'{path.name} shows nothing: call show_object(shape) in it, or assign the shape to a variable "result".'

@@ -8,10 +8,11 @@ from typing import Any
 
 from hlr.errors import OptionError
 from hlr.source.cad.colors import ColorOpacity
-from hlr.source.cad.objects import is_shape_like, to_leaves
+from hlr.source.cad.objects import is_object, is_shape_like, to_leaves
 from hlr.source.cad.occt_import import load_occt
 from hlr.source.cad.viewers import Shown
-from hlr.source.collected import is_collection, things_in
+from hlr.source.collected import is_collection, only, things_in
+from hlr.source.joined import are_both
 from hlr.source.mesh.open_objects import are_meshes, hold_triangles
 
 RESULT_VARIABLE = "result"
@@ -74,8 +75,12 @@ def _ids_in(thing: Any) -> set[int]:
 
 
 def is_shape(value: Any) -> bool:
-    """Whether it is drawn as a CAD shape, or as a mesh."""
-    return passes(value, is_shape_like) or passes(value, hold_triangles)
+    """Whether it is drawn: as a CAD shape, as a mesh, or as a list or a dict of both."""
+    return passes(value, is_shape_like) or passes(value, hold_triangles) or passes(value, _holds_both)
+
+
+def _holds_both(value: Any) -> bool:
+    return are_both(value) and only(value, is_object) is not None
 
 
 def passes(value: Any, check: Callable[[Any], bool]) -> bool:
@@ -95,7 +100,8 @@ def _rank(thing: Any) -> int:
     from OCP.TopExp import TopExp_Explorer
 
     try:
-        held = [leaf.shape for leaf in to_leaves(thing, "part") if leaf.shape is not None]
+        cad = only(thing, is_object) if _holds_both(thing) else thing
+        held = [leaf.shape for leaf in to_leaves(cad, "part") if leaf.shape is not None]
     except Exception:  # whatever a half-made object raises
         return 3
     for rank, kind in enumerate((Kind.TopAbs_SOLID, Kind.TopAbs_FACE)):

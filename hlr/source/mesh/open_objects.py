@@ -12,7 +12,7 @@ from hlr.common.types import Color
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError
 from hlr.source.collected import is_collection, is_made_of, left_out_of, name_under
-from hlr.source.mesh.mesh_source import Instance, MeshSource
+from hlr.source.mesh.mesh_source import Instance, MeshSource, unique_names
 from hlr.source.mesh.objects import Meshes, is_manifold, is_trimesh, own_name, read_manifold, read_pair, read_trimesh
 from hlr.source.mesh.pair import is_pair
 from hlr.source.model import Frame
@@ -53,20 +53,27 @@ def open_meshes(thing: Any) -> MeshSource:
     return mesh_source(name, read_meshes(thing), list(left_out_of(thing)))
 
 
-def mesh_source(name: str, read: Sequence[Meshes], notes: Sequence[Note]) -> MeshSource:
+def mesh_source(
+    name: str, read: Sequence[Meshes], notes: Sequence[Note], *, in_world: bool = False, taken: Sequence[str] = ()
+) -> MeshSource:
     """One source of all that was read. Where units or up axes differ, it has millimetres, and z is up.
+
+    in_world: it has so in any case; taken: names that no part gets
 
     Raises:
         SourceError: there are no triangles.
     """
-    frames = list(dict.fromkeys(each.frame for each in read))
+    frames = [Frame()] if in_world else list(dict.fromkeys(each.frame for each in read))
     geometries: list[tuple[Any, Any]] = []
     instances: list[Instance] = []
     for each in read:
         first = len(geometries)
         geometries += each.geometries
-        placed = each.instances if len(frames) == 1 else _in_world(each)
+        placed = each.instances if frames == [each.frame] else _in_world(each)
         instances += [replace(instance, geometry=first + instance.geometry) for instance in placed]
+    if taken:
+        names = unique_names([*taken, *[instance.name for instance in instances]])[len(taken) :]
+        instances = [replace(each, name=unique) for each, unique in zip(instances, names, strict=True)]
     return MeshSource(name, "mesh", geometries, instances, frames[0] if len(frames) == 1 else Frame(), notes)
 
 
