@@ -14,7 +14,7 @@ from hlr.tables.entry import listed
 from hlr.tables.readers import Reader, endings, of_ending, of_objects, what_to_pass
 
 if TYPE_CHECKING:
-    from hlr.source.cad.brep_source import BrepSource
+    from hlr.source.cad.cached_files import FileSource
 
 __all__ = ["open_source"]
 
@@ -93,7 +93,7 @@ def _open_path(path: Path, of_script: Mapping[str, Any], of_file: Mapping[str, b
 
     all_of_it = any(asked and name in reader.takes for name, asked in of_file.items())
     return read_through_cache(
-        path, reader.kind, all_of_it, lambda: cast("BrepSource", _opened(reader, path, path.name, **given))
+        path, reader.kind, all_of_it, lambda: cast("FileSource", _opened(reader, path, path.name, **given))
     )
 
 

@@ -40,6 +40,8 @@ def open_both(thing: Any) -> Source:
         SourceError: there is nothing to draw, or a mesh cannot be read.
     """
     cad, meshes = only(thing, is_object), only(thing, is_mesh)
+    if cad is not None:
+        load_occt()
     return source_of_both(
         type(thing).__name__,
         "object",
@@ -63,7 +65,6 @@ def source_of_both(
         return mesh_source(name, meshes, notes)
     if not meshes:
         return build_source(name, kind, leaves, notes)
-    load_occt()
     cad = build_source(name, kind, leaves)
     try:
         beside = mesh_source(name, meshes, (), in_world=True, taken=cad.names())
@@ -84,7 +85,7 @@ class JoinedSource:
             SourceError: the model is too large to calculate with.
         """
         self.cad, self.meshes, self.choice = cad, meshes, choice
-        self._both, self._notes = (cad, meshes), list(notes)
+        self._both, self._notes, self.reading = (cad, meshes), list(notes), ""
         check_bounds(self.name, self.bounds())
 
     def with_both(self, cad: BrepSource, meshes: MeshSource) -> JoinedSource:

@@ -54,7 +54,7 @@ def texts(source):
             {},
             '"Bad" leads back to itself',
         ),
-        ({"Bad": item("Mesh::Feature", Mesh=kept("Mesh", "m.bms"))}, {}, '"Bad" is a mesh'),
+        ({"Bad": item("Mesh::Feature", Mesh=kept("Mesh", "m.bms"))}, {}, '"Bad" was left out: its mesh is missing'),
         (
             {"Bad": item("App::Link", LinkedObject=xlink("Box"), ScaleVector=vector(0, 1, 1))},
             CUBE,
@@ -80,8 +80,7 @@ def test_a_document_of_meshes_alone_says_so_without_repeating_itself(tmp_path):
     with pytest.raises(SourceError) as told:
         opened(tmp_path, {"Bad": item("Mesh::Feature", Mesh=kept("Mesh", "m.bms"))}, {})
     assert str(told.value) == (
-        'made.FCStd shows no shapes that can be drawn, for "Bad" is a mesh and was left out: '
-        "export it as STL, 3MF or OBJ to draw it."
+        'made.FCStd shows no shapes that can be drawn, for "Bad" was left out: its mesh is missing in the document.'
     )
 
 

@@ -33,11 +33,17 @@ from hlr.source.cad.cache_key import cache_key
 from hlr.source.cad.parts import Part
 from hlr.source.cad.prototypes import EMPTY_BOX, Prototypes
 from hlr.source.cad.source_builder import with_appearance
+from hlr.source.joined import JoinedSource
+from hlr.source.mesh.mesh_source import MeshSource
 from hlr.source.model import Appearance
 
+FileSource = BrepSource | JoinedSource | MeshSource
 
-def read_through_cache(path: Path, kind: str, all_of_it: bool, read: Callable[[], BrepSource]) -> BrepSource:
+
+def read_through_cache(path: Path, kind: str, all_of_it: bool, read: Callable[[], FileSource]) -> FileSource:
     """The source of a file: from the cache, else from `read`, whose result is cached where that is possible.
+
+    A source that has meshes is not: they would take long to write, and are read as fast from the file.
 
     Raises:
         SourceError: whatever `read` raises; a failure is not cached.
@@ -45,7 +51,7 @@ def read_through_cache(path: Path, kind: str, all_of_it: bool, read: Callable[[]
     started = perf_counter()
     cache_folder = folder()
     if cache_folder is None:
-        source = read()
+        source: FileSource = read()
         source.reading = f"{path.name} was read in {_seconds_since(started)}; the cache is off"
         return source
     store = Store(cache_folder, most_bytes())
@@ -66,6 +72,8 @@ def read_through_cache(path: Path, kind: str, all_of_it: bool, read: Callable[[]
     try:
         if key != cache_key(path, kind, all_of_it):
             raise NotKeptError("the file has changed meanwhile")
+        if not isinstance(source, BrepSource):
+            raise NotKeptError("it holds meshes")
         store.write(key, packed(key, *to_entry(source)))
         source.reading += f" and is in the cache now: {store.path(key)}"
     except (NotKeptError, OSError) as error:

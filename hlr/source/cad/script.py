@@ -26,6 +26,7 @@ from hlr.errors import SourceError
 from hlr.request.options import Parameter
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.objects import is_object, to_leaves
+from hlr.source.cad.occt_import import load_occt
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.script_choice import RESULT_VARIABLE, is_shape, objects_to_draw, passes
 from hlr.source.cad.script_run import run
@@ -60,6 +61,8 @@ def open_script(
     for thing, name, look in chosen:
         both = passes(thing, are_both)
         cad, triangles = (only(thing, is_object), only(thing, is_mesh)) if both else (thing, None)
+        if cad is not None:
+            load_occt()
         try:
             leaves += [] if cad is None else to_leaves(cad, name or path.stem, *look)
             meshes += [] if triangles is None else read_meshes(triangles, name or path.stem, *look)

@@ -11,27 +11,38 @@ from hlr.errors import SourceError, counted
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.kernel_shapes import without_opencascade
 from hlr.source.cad.parts import Leaf
-from hlr.source.cad.source_builder import build_source
 from hlr.source.freecad.document import Document, open_document
 from hlr.source.freecad.properties import DamagedError
 from hlr.source.freecad.shapes import Shapes
 from hlr.source.freecad.tree import TooManyError, Tree
+from hlr.source.joined import JoinedSource, source_of_both
+from hlr.source.mesh.mesh_source import MeshSource
+from hlr.source.mesh.objects import Meshes
 
 
-def open_fcstd(path: Path, hidden_objects: bool = False) -> BrepSource:
+def open_fcstd(path: Path, hidden_objects: bool = False) -> BrepSource | MeshSource | JoinedSource:
     """A FreeCAD document. hidden_objects: what it does not show is read as well.
 
     Raises:
         SourceError: it is no FreeCAD document, broken or hostile, or shows nothing that can be drawn.
     """
-    leaves, notes = without_opencascade(lambda opencascade: read_document(path, opencascade, hidden_objects))
-    return build_source(path.name, "fcstd", leaves, notes)
+
+    def read(opencascade: bool) -> tuple[list[Leaf], list[Meshes], list[Note]]:
+        with opened_document(path) as document:
+            tree = Tree(document, Shapes(opencascade), hidden_objects, meshes=True)
+            leaves, notes = _shown(tree, path.name)
+            return leaves, tree.meshes, notes
+
+    leaves, meshes, notes = without_opencascade(read)
+    return source_of_both(path.name, "fcstd", leaves, meshes, notes)
 
 
 def read_document(
     path: Path, opencascade: bool, hidden_objects: bool = False, only: Sequence[str] | None = None
 ) -> tuple[list[Leaf], list[Note]]:
-    """What a document shows as leaves of an assembly, and what was left out. only: the names of objects, and no others.
+    """What a document shows as leaves of an assembly, and what was left out, such as meshes.
+
+    only: the names of objects, and no others.
 
     opencascade: it reads the shapes, not the kernel.
 
@@ -75,18 +86,22 @@ def leaves_of(
         SourceError: there is nothing to draw. TooManyError, DamagedError: it is broken or hostile.
         NeedsOpenCascadeError: the kernel reads the shapes, and cannot take one of them.
     """
-    tree = Tree(document, shapes, hidden_objects, only)
+    return _shown(Tree(document, shapes, hidden_objects, only), name, sketches)
+
+
+def _shown(tree: Tree, name: str, sketches: bool = False) -> tuple[list[Leaf], list[Note]]:
     notes = list(tree.notes)
     if tree.left_hidden:
         notes.append(_hidden_note(tree.left_hidden))
-    if not tree.leaves and not tree.sketches:
+    if not tree.leaves and not tree.sketches and not tree.meshes:
         raise SourceError(f"{name} {_why_empty(tree)}.")
     if sketches:
         return tree.leaves + tree.sketches, notes
-    if tree.leaves and tree.sketches:
+    faced = bool(tree.leaves or tree.meshes)
+    if faced and tree.sketches:
         left_out = f"{counted(len(tree.sketches), 'sketch', 'sketches')} left out"
         notes.append(Note("free-edges-left-out", f"{left_out}: a hidden-line drawing needs faces."))
-    return tree.leaves or tree.sketches, notes
+    return tree.leaves if faced else tree.sketches, notes
 
 
 def _hidden_note(count: int) -> Note:

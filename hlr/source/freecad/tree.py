@@ -14,9 +14,11 @@ from hlr.errors import counted
 from hlr.source.cad.parts import Leaf
 from hlr.source.freecad.colors import Look, look_of, look_of_link
 from hlr.source.freecad.document import Document, Object
+from hlr.source.freecad.kept_mesh import KeptMeshes
 from hlr.source.freecad.properties import DamagedError, Properties
 from hlr.source.freecad.rings import rings
 from hlr.source.freecad.shapes import Shapes
+from hlr.source.mesh.objects import Meshes
 from hlr.source.transforms import IDENTITY, MatrixRows, compose
 
 MAX_DEPTH = 100
@@ -70,14 +72,23 @@ class Tree:
 
     hidden: objects that the document does not show count as well, unless others are made of them.
     only: the names of objects that are drawn, shown or not, where they lie in the document; None: all that it shows.
+    meshes: they are read into `meshes`; FreeCAD's own pages show none.
     """
 
     def __init__(
-        self, document: Document, shapes: Shapes, hidden: bool = False, only: Sequence[str] | None = None
+        self,
+        document: Document,
+        shapes: Shapes,
+        hidden: bool = False,
+        only: Sequence[str] | None = None,
+        *,
+        meshes: bool = False,
     ) -> None:
         self.document, self.shapes = document, shapes
         self.leaves: list[Leaf] = []
         self.sketches: list[Leaf] = []
+        self.meshes: list[Meshes] = []
+        self._kept = KeptMeshes() if meshes else None
         self.left_hidden = 0
         self._left_out: dict[str, None] = {}
         self._without_colors: dict[str, None] = {}
@@ -138,8 +149,8 @@ class Tree:
             self._leads_nowhere(label)
         elif "Shape" in thing.values:
             self._shape(thing, context, "/".join(inner.names))
-        elif thing.type.startswith("Mesh::"):
-            self._leave_out(f'"{label}" is a mesh and was left out: export it as STL, 3MF or OBJ to draw it.')
+        elif "Mesh" in thing.values:
+            self._mesh(thing, context, "/".join(inner.names))
 
     def _members(self, names: list[str], context: _Context) -> None:
         if context.path:
@@ -237,8 +248,7 @@ class Tree:
         return None, ()
 
     def _shape(self, thing: Object, context: _Context, name: str) -> None:
-        if len(self.leaves) >= MAX_LEAVES:
-            raise TooManyError(f"places more than {MAX_LEAVES} shapes")
+        self._check_count()
         # A body shows its tip, in the colours of the tip.
         tip = self.document.objects.get(thing.values.link("Tip")) if thing.type in _BODIES else None
         try:
@@ -250,6 +260,23 @@ class Tree:
             self._leave_out(f'"{name}" was left out: its shape {error}.')
             return
         (self.sketches if thing.type in _SKETCHES else self.leaves).append(leaf)
+
+    def _mesh(self, thing: Object, context: _Context, name: str) -> None:
+        if self._kept is None:
+            self._leave_out(
+                f'"{context.label or thing.label}" is a mesh and was left out: export it as STL, 3MF or OBJ to draw it.'
+            )
+            return
+        self._check_count()
+        look = context.look or self._look(look_of, thing, name)
+        try:
+            self.meshes.append(self._kept.placed(thing, name, context.place, context.placed, look))
+        except ValueError as error:
+            self._leave_out(f'"{name}" was left out: its mesh {error}.')
+
+    def _check_count(self) -> None:
+        if len(self.leaves) + len(self.meshes) >= MAX_LEAVES:
+            raise TooManyError(f"places more than {MAX_LEAVES} shapes")
 
     def _leads_nowhere(self, label: str) -> None:
         self._leave_out(f'"{label}" is a link to what its target does not hold, and was left out.')
@@ -329,7 +356,9 @@ def _is_link(thing: Object) -> bool:
 
 def _holds_shapes(thing: Object) -> bool:
     """Whether it would draw anything: sketches, datums and other aids would not."""
-    return thing.type not in _AIDS | _SKETCHES and (_is_link(thing) or "Shape" in thing.values or bool(_members(thing)))
+    return thing.type not in _AIDS | _SKETCHES and (
+        _is_link(thing) or bool({"Shape", "Mesh"} & thing.values.elements.keys()) or bool(_members(thing))
+    )
 
 
 def _members(thing: Object) -> list[str]:

@@ -55,6 +55,7 @@ class MeshSource:
         """
         self._name, self._kind = name, kind
         self.choice: Choice | None = None
+        self.reading = ""
         self._frame = frame if frame is not None else Frame()
         self._notes = list(notes)
         cleaned = [clean_mesh(points, triangles) for points, triangles in geometries]
