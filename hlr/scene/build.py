@@ -24,12 +24,13 @@ from hlr.scene.repeats import Looks, without_repeats
 from hlr.scene.scene import Scene, TrueSurfaces
 from hlr.scene.scene_edges import SceneEdges
 from hlr.scene.scene_parts import OnCut, scene_parts
+from hlr.scene.shared_diagonals import without_shared_diagonals
 from hlr.scene.spindle_tori import self_intersecting_tori
 from hlr.scene.stitching import stitch_borders
 from hlr.scene.walks import crease_walks
 from hlr.source.bounds import LARGEST_COORDINATE
 from hlr.source.fewer_triangles import Fewer, with_fewer_triangles
-from hlr.source.model import Tessellation
+from hlr.source.model import PartMesh, Tessellation
 from hlr.source.part_meshes import PartMeshes, combine_parts
 from hlr.tables.line_classes import INTERIOR, EdgeClass
 
@@ -113,7 +114,11 @@ def build(
 
 def _repaired(whole: PartMeshes, plan: Planner) -> tuple[PartMeshes, MeshFacts, list[int]]:
     """The parts without duplicates, their edges, and the number of triangles left out of each."""
-    mesh, doubled = _facts(whole), [0] * len(whole)
+    mesh = _facts(whole)
+    if turned := _with_other_diagonals(whole, mesh):
+        whole = combine_parts([turned.get(i, part) for i, part in enumerate(whole)])
+        mesh = _facts(whole)
+    doubled = [0] * len(whole)
     with plan.deciding():
         triangles, places = mesh.triangles_repeated(), whole.tables.triangles_in_one_place()
         some = [i for i, both in enumerate(zip(triangles, places, strict=True)) if True in both]
@@ -132,6 +137,22 @@ def _repaired(whole: PartMeshes, plan: Planner) -> tuple[PartMeshes, MeshFacts, 
             mesh = _facts(whole)
     plan.spent("repair", perf_counter() - begin, doubled_triangles=sum(doubled))
     return whole, mesh, doubled
+
+
+def _with_other_diagonals(whole: PartMeshes, mesh: MeshFacts) -> dict[int, PartMesh]:
+    """Those B-reps of which two faces shared a diagonal beside their edge, by their numbers."""
+    offsets = mesh.offsets
+    four = offsets[:-1][offsets[1:] - offsets[:-1] == 4]
+    if not len(four):
+        return {}
+    part = np.searchsorted(whole.tables.triangle_start, mesh.incident[four], side="right") - 1
+    found = {}
+    for i in np.unique(part[whole.tables.brep[part]]).tolist():
+        before = whole[i]
+        after = without_shared_diagonals(before)
+        if not np.array_equal(after.triangles, before.triangles):
+            found[i] = after
+    return found
 
 
 def _stitched(whole: PartMeshes, mesh: MeshFacts, deflection: float, plan: Planner) -> tuple[PartMeshes, MeshFacts]:
