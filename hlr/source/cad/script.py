@@ -8,7 +8,7 @@ exists is drawn:
 1. the variable that the caller names;
 2. all objects that the script shows;
 3. the variable `result`;
-4. the solid that was assigned last, else the last face, else the last shape or mesh.
+4. the solid that it exports last, else the solid that was assigned last, else so a face, else a shape or a mesh.
 
 A remark in the drawing names the choice. What stands under
 `if __name__ == "__main__":` is run where nothing is there to draw without it, or where it shows something and nothing

@@ -10,6 +10,7 @@ from hlr.errors import OptionError
 from hlr.source.cad.colors import ColorOpacity
 from hlr.source.cad.objects import is_object, is_shape_like, to_leaves
 from hlr.source.cad.occt_import import load_occt
+from hlr.source.cad.script_exports import exported
 from hlr.source.cad.viewers import Shown
 from hlr.source.collected import is_collection, only, things_in
 from hlr.source.joined import are_both
@@ -29,12 +30,15 @@ def objects_to_draw(path: Path, shown: list[Shown], values: dict[str, Any], var:
     found = shapes(values)
     if RESULT_VARIABLE in found:
         return [(found[RESULT_VARIABLE], "", NO_COLOR)], f'the variable "{RESULT_VARIABLE}" is drawn'
-    for rank, what in enumerate(("the last solid", "the last face, for there is no solid", "the last shape")):
+    for rank, what in enumerate(("solid", "face, for there is no solid", "shape")):
         names = [name for name, thing in found.items() if _rank(thing) <= rank]
         if names:
-            why = f'the variable "{names[-1]}" is drawn, {what}'
+            written = [name for name in exported(path) if name in names]
+            name = (written or names)[-1]
+            last = "the last exported" if written else "the last"
+            why = f'the variable "{name}" is drawn, {last} {what}'
             choice = "show_object(shape), or a variable result, in the script, or --var NAME, chooses another"
-            return [(found[names[-1]], "", NO_COLOR)], f"{why}; {choice}"
+            return [(found[name], "", NO_COLOR)], f"{why}; {choice}"
     return [], ""
 
 
