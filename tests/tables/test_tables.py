@@ -302,7 +302,7 @@ def test_an_object_in_memory_is_a_row(monkeypatch):
     reader = Reader("a dummy object", "dummy", f"{HERE}:open_size", fits=f"{HERE}:is_size")
     monkeypatch.setitem(READERS, reader.title, reader)
     assert len(hlr.draw(Size(20.0), **AT_SIZE).lines) == 12
-    with pytest.raises(hlr.SourceError, match=r"\(vertices, faces\), a dummy object or the name of a file\."):
+    with pytest.raises(hlr.SourceError, match=r"CAD objects and meshes, a dummy object or the name of a file\."):
         hlr.draw(object(), **AT_SIZE)
 
 

@@ -15,6 +15,19 @@ from hlr.source.cad.parts import Leaf
 from hlr.source.freecad.colors import Look, look_of, look_of_link
 from hlr.source.freecad.document import Document, Object
 from hlr.source.freecad.kept_mesh import KeptMeshes
+from hlr.source.freecad.object_kinds import (
+    AIDS,
+    BODIES,
+    SKETCHES,
+    TARGETS,
+    holds_shapes,
+    ingredients,
+    is_folder,
+    is_link,
+    leads_to,
+    members,
+    moves,
+)
 from hlr.source.freecad.properties import DamagedError, Properties
 from hlr.source.freecad.rings import rings
 from hlr.source.freecad.shapes import Shapes
@@ -95,10 +108,10 @@ class Tree:
         self._deep: dict[str, None] = {}
         self._visits = 0
         self._hidden = hidden
-        self._made_of = set(_ingredients(document))
+        self._made_of = set(ingredients(document))
         self._group: dict[str, list[str]] = {}
-        self._rings = rings(document.objects, lambda name: _leads_to(document.objects[name]))
-        parents = {name: thing for thing in document.objects.values() for name in _members(thing)}
+        self._rings = rings(document.objects, lambda name: leads_to(document.objects[name]))
+        parents = {name: thing for thing in document.objects.values() for name in members(thing)}
         if only is None:
             for thing in document.objects.values():
                 if thing.name not in parents and self._is_shown(thing):
@@ -113,7 +126,7 @@ class Tree:
             # Without the user interface FreeCAD calls everything visible.
             return thing.visible and self.document.has_view
         shown = thing.visible or self._hidden
-        self.left_hidden += not shown and thing.name not in self._made_of and _holds_shapes(thing)
+        self.left_hidden += not shown and thing.name not in self._made_of and holds_shapes(thing)
         return shown
 
     def _visit(self, thing: Object, context: _Context) -> None:
@@ -134,13 +147,13 @@ class Tree:
         if ring != context.ring:
             inner = replace(inner, ring=ring, met=set())
         inner.met.add(thing.name)
-        if _is_link(thing):
+        if is_link(thing):
             look = context.look or self._look(look_of_link, thing, "/".join(inner.names))
             self._link(thing, replace(inner, place=_own_place(thing, context), look=look))
-        elif thing.type in _AIDS:
+        elif thing.type in AIDS:
             return
-        elif (members := self._members_of(thing)) and (context.path or thing.type not in _BODIES):
-            if _moves(thing):
+        elif (members := self._members_of(thing)) and (context.path or thing.type not in BODIES):
+            if moves(thing):
                 inner = replace(inner, place=_own_place(thing, context), beside=set())
             else:
                 inner = replace(inner, place=context.place)
@@ -181,7 +194,7 @@ class Tree:
         folders = {
             name: self._members_of(thing)
             for name, thing in things
-            if thing is not None and _is_folder(thing) and (thing.visible or self._hidden)
+            if thing is not None and is_folder(thing) and (thing.visible or self._hidden)
         }
         inner = set[str]().union(*folders.values())
         # Folders that hold one another are in none that is followed.
@@ -230,7 +243,7 @@ class Tree:
 
     def _target(self, thing: Object, label: str) -> tuple[Object | None, tuple[str, ...]]:
         """What a link refers to, and the way on to what it shows of it; None, with a note, where it cannot be drawn."""
-        for name in _TARGETS:
+        for name in TARGETS:
             if name not in thing.values:
                 continue
             if other := thing.values.other_document(name):
@@ -250,7 +263,7 @@ class Tree:
     def _shape(self, thing: Object, context: _Context, name: str) -> None:
         self._check_count()
         # A body shows its tip, in the colours of the tip.
-        tip = self.document.objects.get(thing.values.link("Tip")) if thing.type in _BODIES else None
+        tip = self.document.objects.get(thing.values.link("Tip")) if thing.type in BODIES else None
         try:
             if self.shapes.of(thing) is None:  # as of an empty body
                 return
@@ -259,7 +272,7 @@ class Tree:
         except ValueError as error:
             self._leave_out(f'"{name}" was left out: its shape {error}.')
             return
-        (self.sketches if thing.type in _SKETCHES else self.leaves).append(leaf)
+        (self.sketches if thing.type in SKETCHES else self.leaves).append(leaf)
 
     def _mesh(self, thing: Object, context: _Context, name: str) -> None:
         if self._kept is None:
@@ -292,7 +305,7 @@ class Tree:
     def _members_of(self, thing: Object) -> list[str]:
         """What is in a group; read once."""
         if thing.name not in self._group:
-            self._group[thing.name] = _members(thing)
+            self._group[thing.name] = members(thing)
         return self._group[thing.name]
 
     def _leave_out(self, text: str) -> None:
@@ -316,21 +329,11 @@ def _own_place(thing: Object, context: _Context) -> MatrixRows:
     values = thing.values
     own = values.placement("LinkPlacement" if "LinkPlacement" in values else "Placement")
     place = compose(context.place, own) if context.placed else context.place
-    if not _is_link(thing):
+    if not is_link(thing):
         return place
     even = values.number("Scale", 1.0)
     scale = values.vector("ScaleVector", (even, even, even))
     return place if scale == (1.0, 1.0, 1.0) else compose(place, _scaling(*scale))
-
-
-def _moves(thing: Object) -> bool:
-    """Whether a group moves what is in it; others are folders."""
-    return _is_link(thing) or bool(_MOVING & thing.extensions) or thing.type in _MOVING_TYPES
-
-
-def _is_folder(thing: Object) -> bool:
-    """Whether it is a group that moves nothing."""
-    return bool(_members(thing)) and not _moves(thing) and thing.type not in _BODIES
 
 
 def _place_around(name: str, parents: Mapping[str, Object]) -> MatrixRows:
@@ -341,66 +344,10 @@ def _place_around(name: str, parents: Mapping[str, Object]) -> MatrixRows:
         name = parent.name
     place = IDENTITY
     for parent in reversed(around):
-        if _moves(parent):
+        if moves(parent):
             place = _own_place(parent, _Context(place))
     return place
 
 
 def _scaling(x: float, y: float, z: float) -> MatrixRows:
     return (x, 0.0, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, 0.0, z, 0.0)
-
-
-def _is_link(thing: Object) -> bool:
-    return any(extension.startswith("App::Link") for extension in thing.extensions) or thing.type in _LINKS
-
-
-def _holds_shapes(thing: Object) -> bool:
-    """Whether it would draw anything: sketches, datums and other aids would not."""
-    return thing.type not in _AIDS | _SKETCHES and (
-        _is_link(thing) or bool({"Shape", "Mesh"} & thing.values.elements.keys()) or bool(_members(thing))
-    )
-
-
-def _members(thing: Object) -> list[str]:
-    """What is in a group, or shown as an element of a link."""
-    return thing.values.links("ElementList" if _is_link(thing) else "Group")
-
-
-def _leads_to(thing: Object) -> list[str]:
-    """What is in a group, and what a link refers to."""
-    if not _is_link(thing):
-        return _members(thing)
-    return [*_members(thing), *(thing.values.link(name) for name in _TARGETS if name in thing.values)]
-
-
-def _ingredients(document: Document) -> Iterator[str]:
-    """The names of the objects that others are made of: the tool of a cut, the profile of an extrusion."""
-    for thing in document.objects.values():
-        if "Shape" in thing.values and thing.type not in _COPIES:
-            for name in _INGREDIENTS:
-                yield from thing.values.links(name)
-
-
-_LINKS = {"App::Link", "App::LinkElement", "App::LinkGroup"}
-_TARGETS = ("LinkedObject", "Base")
-"""What a link refers to; Base: of Draft's arrays of links."""
-
-_BODIES = {"PartDesign::Body"}
-"""They are groups with a shape of their own, which is that of their tip."""
-
-_MOVING_TYPES = {"App::Part", "Assembly::AssemblyObject"}
-_MOVING = {
-    f"App::{kind}{python}" for kind in ("GeoFeatureGroupExtension", "OriginGroupExtension") for python in ("", "Python")
-}
-"""Extensions of groups that move what is in them."""
-
-_SKETCHES = {"Sketcher::SketchObject", "Sketcher::SketchObjectPython"}
-_AIDS = {
-    *(f"PartDesign::{kind}" for kind in ("Plane", "Line", "Point", "CoordinateSystem")),
-    *(f"App::{kind}" for kind in ("Origin", "Plane", "Line", "Point")),
-}
-"""Aids for design: shown in the view, but no part of the model."""
-
-_INGREDIENTS = ("Base", "Tool", "Shapes", "Links", "Source", "Sections", "Spine", "BaseFeature", "Objects")
-_COPIES = {"Part::Mirroring", "Part::FeaturePython", "Part::Part2DObjectPython"}
-"""What they are made of stays visible beside them: mirrors, clones."""
