@@ -126,7 +126,7 @@ class Session:
         scene, meshed = made(self.source.names() if self.options.fill else ())
         # Where a part touches itself, its facets matter as where it touches another.
         through = scene.through_themselves if len(meshed.touching) else ()
-        coarse = [i for i in through if meshed.touching[i] < len(meshed.parts[i].face_planar)]
+        coarse = [i for i in through if (part := meshed.parts[i]).brep and meshed.touching[i] < len(part.face_planar)]
         return made({scene.parts.labels[i].name for i in coarse}) if coarse else (scene, meshed)
 
     def scene_by_size(self) -> Scene:

@@ -118,7 +118,9 @@ def why_not_read(thing: Any, is_read: Callable[[Any], bool]) -> str | None:
 
 def _unread(thing: Any, is_read: Callable[[Any], bool], within: tuple[int, ...]) -> str:
     """What in a list or a dict, or in those inside of it, cannot be drawn. within: ids of it and of what it is in."""
-    bad = next(item for item in items_of(thing) if not is_nothing(item) and not is_read(item))
+    bad = next((item for item in items_of(thing) if not is_nothing(item) and not is_read(item)), None)
+    if bad is None:
+        return "no mesh in it has a triangle"
     if id(bad) in within:
         return f"{type(bad).__name__} in it holds itself"
     if is_collection(bad):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import hlr
+import hlr.source.joined
 from hlr.errors import OptionError, SourceError
 from hlr.source import open_source
 from support.missing_ink import missing, visible_segments
@@ -169,3 +170,14 @@ def test_what_is_said_of_the_stages():
     assert told["mesh reader"].counts == {"mesh_parts": 2}
     assert told["triangulation of planar faces"].counts == {"planar_triangles": 12}
     assert not told["meshing of curved faces"].on
+
+
+def test_a_mesh_that_passes_through_itself_is_meshed_once(monkeypatch):
+    """A finer mesh is there for B-reps alone."""
+    both = trimesh.util.concatenate([post(30), post(34)])
+    calls, mesh = [], hlr.source.joined.JoinedSource.mesh
+    monkeypatch.setattr(
+        hlr.source.joined.JoinedSource, "mesh", lambda self, *a, **k: (calls.append(1), mesh(self, *a, **k))[1]
+    )
+    hlr.draw({"box": box(), "both": both}, view="iso", scale=1.0)
+    assert len(calls) == 1

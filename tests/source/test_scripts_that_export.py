@@ -21,6 +21,7 @@ MADE = (
         ("exporters.export(part, 'part.stl')", "part", 10),
         ("cq.exporters.export(part, 'part.step')\ncq.exporters.export(lid, 'lid.step')", "lid", 2),
         ("part.export('part.stl')", "part", 10),
+        ("file = 'part.stl'\npart.export(file)", "part", 10),
         ("for name in ('a.stl', 'b.stl'):\n    exporters.export(lid, name)", "lid", 2),
         ("def write(shape):\n    exporters.export(shape, 'x.stl')\nwrite(part)", "stock", 90),
         ("exporters.export(part.rotate((0, 0, 0), (1, 0, 0), 90), 'part.stl')", "stock", 90),

@@ -102,3 +102,8 @@ def test_a_script_with_meshes_never_loads_a_cad_kernel(tmp_path):
     )
     run = subprocess.run([sys.executable, "-P", "-c", code, str(path)], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == ""
+
+
+def test_a_result_of_meshes_without_triangles_is_told(tmp_path):
+    with pytest.raises(SourceError, match="no mesh in it has a triangle"):
+        open_source(script_of(tmp_path, "result = [trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]])]\ndel lid, pot"))

@@ -13,20 +13,15 @@ def exported(path: Path) -> list[str]:
     `part.export("part.stl")`, `assembly.save("all.step")`, `part.export_stl("part.stl")` of both.
     """
     calls = [node for node in ast.walk(ast.parse(path.read_bytes(), str(path))) if isinstance(node, ast.Call)]
-    names = [_written(call) for call in sorted(calls, key=lambda call: (call.lineno, call.col_offset))]
-    return [name for name in names if name]
+    ordered = sorted(calls, key=lambda call: (call.lineno, call.col_offset))
+    return [name for call in ordered for name in _written(call)]
 
 
-def _written(call: ast.Call) -> str:
-    """The variable that a call writes to a file, or ""."""
-    of, name = None, ""
-    if isinstance(call.func, ast.Attribute):
-        of, name = call.func.value, call.func.attr
-    elif isinstance(call.func, ast.Name):
-        name = call.func.id
-    if name != "save" and not name.startswith("export"):
-        return ""
-    first = call.args[0] if call.args else None
-    if isinstance(first, ast.Name):
-        return first.id
-    return of.id if isinstance(of, ast.Name) else ""
+def _written(call: ast.Call) -> list[str]:
+    """The variables that a call may write to a file: the one whose method it is, and the first that it is given."""
+    function = call.func
+    called = getattr(function, "attr", "") or getattr(function, "id", "")
+    if called != "save" and not called.startswith("export"):
+        return []
+    of = [function.value] if isinstance(function, ast.Attribute) else []
+    return [each.id for each in (*of, *call.args[:1]) if isinstance(each, ast.Name)]
