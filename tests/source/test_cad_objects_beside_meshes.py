@@ -174,10 +174,10 @@ def test_what_is_said_of_the_stages():
 
 def test_a_mesh_that_passes_through_itself_is_meshed_once(monkeypatch):
     """A finer mesh is there for B-reps alone."""
-    both = trimesh.util.concatenate([post(30), post(34)])
+    spindle = trimesh.creation.torus(4.0, 6.0)
     calls, mesh = [], hlr.source.joined.JoinedSource.mesh
     monkeypatch.setattr(
         hlr.source.joined.JoinedSource, "mesh", lambda self, *a, **k: (calls.append(1), mesh(self, *a, **k))[1]
     )
-    hlr.draw({"box": box(), "both": both}, view="iso", scale=1.0)
+    hlr.draw({"box": box(), "spindle": spindle}, view="iso", scale=1.0)
     assert len(calls) == 1
