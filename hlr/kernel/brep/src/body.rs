@@ -70,7 +70,7 @@ impl Body {
             })
         };
         for edge in &mut edges {
-            if let Some((curve, _)) = &mut edge.only_on {
+            if let Some((curve, _)) = edge.only_on.as_deref_mut() {
                 *curve = curve2(*curve);
             }
         }
@@ -172,7 +172,9 @@ pub fn model_of(bodies: Vec<Body>, classified: bool) -> Model {
             faces.push(own.face);
         }
         edges.extend(body.edges.into_iter().map(|mut own| {
-            own.only_on = own.only_on.map(|(curve, surface)| (curve2 + curve, surface));
+            if let Some((curve, _)) = own.only_on.as_deref_mut() {
+                *curve += curve2;
+            }
             own
         }));
         curves2.extend(body.curves2);

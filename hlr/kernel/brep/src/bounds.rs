@@ -132,7 +132,7 @@ pub(crate) fn add_ends(edge: &Edge, place: &Matrix, found: &mut Box3) {
 pub(crate) fn add_edge(model: &Model, edge: &Edge, place: &Matrix, found: &mut Box3) {
     if let Some(curve) = &edge.curve {
         add_curve(&curve.moved(place), edge.range, found);
-    } else if let Some((number, surface)) = &edge.only_on
+    } else if let Some((number, surface)) = edge.only_on.as_deref()
         && let (Some(curve), Some(on)) = (&model.curves2[*number], edge.on.first())
     {
         for t in steps(on.range, SAMPLES) {

@@ -96,7 +96,7 @@ fn uv(shapes: Shapes, used: &Use, surface: &Surface, share: f64) -> Option<[f64;
         let edge = &shapes.edges[used.edge as usize];
         let point = edge.curve.as_ref()?.point(at(edge.range));
         let (origin, x, y) = surface.d1([0.0; 2]);
-        let off = sub(&used.place.map_or(point, |place| moved(&place, &point)), &origin);
+        let off = sub(&used.place.as_ref().map_or(point, |place| moved(place, &point)), &origin);
         return Some([dot(&off, &x), dot(&off, &y)]);
     }
     let (curve, range) = used.curve2?;

@@ -76,6 +76,7 @@ impl Model {
         let mut model =
             Model { locations, edges, faces, parts, topology, classes: Vec::new(), folded: Vec::new(), curves2 };
         model.classify();
+        release(dump);
         Ok(model)
     }
 
@@ -102,6 +103,14 @@ impl Model {
     }
 }
 
+/// Releases what was read, on another thread where there is one: that takes a tenth as long as making the model of it.
+fn release(dump: Dump) {
+    // A pool of one thread would keep the job until the thread ends.
+    if rayon::current_num_threads() > 1 {
+        rayon::spawn(move || drop(dump));
+    }
+}
+
 /// Makes something of each item. Those that are `unplaced` need no locations, and are made side by side; the others one
 /// after another, so that new locations get the same numbers in every run.
 fn made<T: Sync, U: Send>(
@@ -110,19 +119,23 @@ fn made<T: Sync, U: Send>(
     unplaced: impl Fn(&T) -> bool + Sync,
     make: impl Fn(&T, &mut Locations) -> U + Sync,
 ) -> Vec<U> {
+    let side_by_side = items.par_iter().with_min_len(AT_ONCE);
+    if items.iter().all(&unplaced) {
+        return side_by_side.map_init(Locations::none, |none, item| make(item, none)).collect();
+    }
     let alone = |none: &mut Locations, item: &T| unplaced(item).then(|| make(item, none));
-    let found: Vec<Option<U>> = items.par_iter().with_min_len(AT_ONCE).map_init(Locations::none, alone).collect();
+    let found: Vec<Option<U>> = side_by_side.map_init(Locations::none, alone).collect();
     found.into_iter().zip(items).map(|(found, item)| found.unwrap_or_else(|| make(item, locations))).collect()
 }
 
 /// Whether no location of an edge but the identity is asked for.
 fn edge_unplaced(dump: &Dump, shape: u32) -> bool {
     let shape = &dump.shapes[shape as usize];
-    let Kind::Edge { ref on, .. } = shape.kind else { return false };
+    let Kind::Edge { on, .. } = shape.kind else { return false };
     let here = |on: &On| match *on {
         On::Curve { location, .. } | On::Surface { location, .. } | On::Polygon { location, .. } => location == 0,
     };
-    on.iter().all(here) && shape.subs.iter().all(|sub| sub.location == 0)
+    dump.on(on).iter().all(here) && shape.subs.iter().all(|sub| sub.location == 0)
 }
 
 fn face_unplaced(dump: &Dump, shape: u32) -> bool {
@@ -141,7 +154,8 @@ fn part_unplaced(part: &Part, faces: &[Face]) -> bool {
 
 fn edge(dump: &Dump, shape: u32, locations: &mut Locations) -> Edge {
     let Shape { kind, subs } = &dump.shapes[shape as usize];
-    let &Kind::Edge { tolerance, degenerate, ref on, continuity, .. } = kind else { unreachable!("an edge") };
+    let &Kind::Edge { tolerance, degenerate, on, continuity, .. } = kind else { unreachable!("an edge") };
+    let on = dump.on(on);
     let mut found = Edge {
         curve: None,
         range: [0.0; 2],
@@ -151,7 +165,7 @@ fn edge(dump: &Dump, shape: u32, locations: &mut Locations) -> Edge {
         end_points: [None; 2],
         // 0: nothing recorded, 1: C0, above: tangent.
         tangent: continuity > 1,
-        on: Vec::with_capacity(on.len()),
+        on: Vec::with_capacity(on.iter().filter(|on| matches!(on, On::Surface { .. })).count()),
         polygon: None,
         only_on: None,
         joints: Vec::new(),
@@ -190,7 +204,7 @@ fn edge(dump: &Dump, shape: u32, locations: &mut Locations) -> Edge {
             found.only_on = dump.surfaces[on.surface]
                 .as_ref()
                 .and_then(|r| Surface::read(r.kind, &moved(r.kind, &r.data, &matrix)?))
-                .map(|surface| (on.curves[0], surface));
+                .map(|surface| Box::new((on.curves[0], surface)));
         }
     }
     for sub in subs {
@@ -245,7 +259,7 @@ fn face(dump: &Dump, shape: u32, locations: &mut Locations, number: &[Option<u32
                 (on.curves[usize::from(reversed)], on.range)
             });
             let curve2 = curve2.filter(|(_, range)| range.iter().all(|t| t.is_finite()));
-            let place = (stands != 0).then(|| locations.matrix(stands));
+            let place = (stands != 0).then(|| Box::new(locations.matrix(stands)));
             let ends = edges[edge as usize].ends(edge);
             let ends = ends.map(|(shape, location)| (shape, locations.product(stands, location)));
             uses.push(Use { edge, location: stands, place, orientation, ends, curve2 });

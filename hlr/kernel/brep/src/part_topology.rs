@@ -1,6 +1,7 @@
 //! The topology of a part: its edges, its faces, which faces share an edge, and where each of them is placed.
 
 use rustc_hash::{FxBuildHasher, FxHashMap};
+use smallvec::SmallVec;
 
 use crate::explore::Part;
 use crate::format::{Locations, Matrix};
@@ -30,7 +31,7 @@ pub struct PartEdge {
     pub place: Option<Matrix>,
     pub ends: [Vertex; 2],
     /// The faces of the part that share the edge, each once.
-    pub faces: Vec<u32>,
+    pub faces: SmallVec<[u32; 2]>,
     /// Whether a face has the edge more than once.
     pub twice: bool,
     /// Whether the edge lies inside a face.
@@ -44,7 +45,7 @@ pub struct PartFace {
     pub mirrored: bool,
     /// Numbers in the part of the edges that the face's wires use, one wire after another.
     pub uses: Vec<u32>,
-    /// Locations within the part by locations within the face.
+    /// Locations within the part by locations within the face, where the two differ.
     locations: FxHashMap<u32, u32>,
 }
 
@@ -73,7 +74,7 @@ pub fn part_topology(
             location: placed.location,
             place: place(locations, placed.location),
             ends,
-            faces: Vec::with_capacity(2),
+            faces: SmallVec::new(),
             twice: false,
             inner: false,
         });
@@ -96,10 +97,14 @@ pub fn part_topology(
             let wires = &model_faces[placed.face as usize].wires;
             let mut uses = Vec::with_capacity(wires.iter().map(Vec::len).sum());
             for used in wires.iter().flatten() {
-                for number in [used.location, used.ends[0].1, used.ends[1].1] {
-                    within.entry(number).or_insert_with(|| locations.product(placed.location, number));
+                let mut location = used.location;
+                if placed.location != 0 {
+                    for number in [used.location, used.ends[0].1, used.ends[1].1] {
+                        within.entry(number).or_insert_with(|| locations.product(placed.location, number));
+                    }
+                    location = within[&location];
                 }
-                uses.push(numbers.get(&(used.edge, within[&used.location])).copied().unwrap_or(u32::MAX));
+                uses.push(numbers.get(&(used.edge, location)).copied().unwrap_or(u32::MAX));
             }
             PartFace {
                 face: placed.face,

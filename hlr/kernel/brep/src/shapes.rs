@@ -27,7 +27,7 @@ pub struct Edge {
     pub on: Vec<OnSurface>,
     pub polygon: Option<Vec<[f64; 3]>>,
     /// For an edge without a curve in space: number of its curve in (u, v), and the surface in the edge's frame.
-    pub only_on: Option<(usize, Surface)>,
+    pub only_on: Option<Box<(usize, Surface)>>,
     /// Parameters at which its polyline has a corner, ascending.
     pub joints: Vec<f64>,
     /// The edge of which it is a copy, and whether it runs the other way.
@@ -57,12 +57,12 @@ pub struct Face {
 }
 
 /// A use of an edge by a wire of a face.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Use {
     pub edge: u32,
     pub location: u32,
     /// The matrix of the location; None for the identity.
-    pub place: Option<Matrix>,
+    pub place: Option<Box<Matrix>>,
     pub orientation: Orientation,
     /// First and last vertex of the edge, as the face sees them.
     pub ends: [Vertex; 2],

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::arrays::{expect_len, flat, rows};
 use super::guard::caught;
-use super::threads::run;
+use super::threads::{release_later, run};
 use hlr_linework::curves::arcs::{Arc, Rows};
 use hlr_linework::curves::dashes::{Ends, Fitted, Pattern, dashes};
 use hlr_linework::curves::layer::{Layer as Inked, layers};
@@ -30,6 +30,12 @@ pub struct Lines(pub Shared<Drawn>, OnceLock<Option<[f64; 4]>>);
 impl Lines {
     pub fn of(lines: Drawn) -> Lines {
         Lines(Shared::new(lines), OnceLock::new())
+    }
+}
+
+impl Drop for Lines {
+    fn drop(&mut self) {
+        release_later(self.0.clone(), self.0.0.len());
     }
 }
 

@@ -82,7 +82,7 @@ fn borders(
     for &(edge, ahead) in &section.follows {
         let orientation = if ahead { Orientation::Forward } else { Orientation::Reversed };
         let own = face.wires.iter().flatten().find(|used| used.edge == edge).ok_or("an edge is missing")?;
-        let follow = pieces.uses(&Use { orientation, ..*own }, made);
+        let follow = pieces.uses(&Use { orientation, ..own.clone() }, made);
         let [follow] = &follow[..] else { return Err("an edge lies partly in the plane") };
         let back = |used: &Use| used.orientation.sense(true) == orientation.sense(false);
         let at = flat.iter().position(|used: &Use| used.edge == follow.edge && back(used));
@@ -140,7 +140,7 @@ impl EdgePieces<'_> {
                 let at = |t: f64| first + (t - edge.range[0]) * rate;
                 (curve, if whole { [first, last] } else { piece.range.map(at) })
             });
-            out.push(Use { edge: number, ends: piece.ends.map(|vertex| (vertex, 0)), curve2, ..*used });
+            out.push(Use { edge: number, ends: piece.ends.map(|vertex| (vertex, 0)), curve2, ..used.clone() });
         }
         out
     }

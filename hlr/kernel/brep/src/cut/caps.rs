@@ -44,7 +44,7 @@ pub fn caps(made: &mut BodyBuilder, plane: &Plane, size: f64) -> Result<(), &'st
     }
     let thin = THIN * size + plane.near;
     for loops in faces(&sides, thin)? {
-        let wires: Vec<Vec<Use>> = loops.iter().map(|chain| chain.iter().map(|&k| uses[k]).collect()).collect();
+        let wires: Vec<Vec<Use>> = loops.iter().map(|chain| chain.iter().map(|&k| uses[k].clone()).collect()).collect();
         let start = made.body.edges[wires[0][0].edge as usize].end_points[0].ok_or("an edge has no vertex")?;
         let data = [plane.foot(&start), axes[0], axes[1], plane.normal].concat();
         let surface = Surface::read(PLANE, &data);

@@ -115,7 +115,7 @@ fn with_faces(body: &Body, of: &[usize], piece: usize) -> Body {
     }
     // An edge without a curve in space has one in (u, v), which no use may have named.
     for edge in &mut out.edges {
-        if let Some((curve, _)) = &mut edge.only_on {
+        if let Some((curve, _)) = edge.only_on.as_deref_mut() {
             out.curves2.push(body.curves2[*curve].clone());
             *curve = out.curves2.len() - 1;
         }

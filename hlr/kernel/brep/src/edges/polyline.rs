@@ -19,7 +19,7 @@ impl Polyline {
     /// Halves the chords with these numbers (ascending) that are longer than the edge's tolerance; true if any was.
     pub fn divide(&mut self, model: &Model, edge: &Edge, chords: &[usize], deflection: f64) -> bool {
         let shortest = 2.0 * NEAR_END * edge.tolerance.min(EDGE_CERTAIN * deflection).max(SAME);
-        let at = |t: f64| match (&edge.curve, &edge.only_on) {
+        let at = |t: f64| match (&edge.curve, edge.only_on.as_deref()) {
             (Some(curve), _) => Some(curve.point(t)),
             (None, Some((curve, surface))) => {
                 let [u, v, _] = model.curves2[*curve].as_ref()?.point(t);
@@ -62,7 +62,7 @@ const MOST_HALVINGS: u32 = 14;
 
 /// The polyline of an edge for a chord error and a turning angle in radians; None for an edge without any curve.
 pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Option<Polyline> {
-    let on = edge.only_on.as_ref().and_then(|(curve, surface)| Some((model.curves2[*curve].as_ref()?, surface)));
+    let on = edge.only_on.as_deref().and_then(|(curve, surface)| Some((model.curves2[*curve].as_ref()?, surface)));
     let [first, last] = edge.range;
     if !(deflection > 0.0 && angle > 0.0) {
         return None;

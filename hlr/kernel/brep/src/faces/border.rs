@@ -73,7 +73,7 @@ pub fn border(model: &Model, face: &Face, polylines: &[Option<Polyline>], deflec
     }
     // An edge inside the face is passed in both directions: a slit.
     for used in inner.into_iter().filter(|used| used.orientation == Orientation::Internal) {
-        let slit = [Orientation::Forward, Orientation::Reversed].map(|orientation| Use { orientation, ..*used });
+        let slit = [Orientation::Forward, Orientation::Reversed].map(|orientation| Use { orientation, ..used.clone() });
         let runs: Result<Vec<_>, _> =
             slit.iter().map(|used| run(model, surface, used, polylines, face.tolerance, deflection)).collect();
         wires.push(runs?.into_iter().flatten().collect());

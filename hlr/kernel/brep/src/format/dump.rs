@@ -1,7 +1,7 @@
 //! What a dump holds, however it is written.
 
 use super::locations::Locations;
-use super::shapes::{Shape, Sub};
+use super::shapes::{On, Shape, Sub};
 use super::surfaces::SurfaceRecord;
 use super::triangles::Triangulation;
 use crate::geometry::curve::Curve;
@@ -17,5 +17,14 @@ pub struct Dump {
     pub surfaces: Vec<Option<SurfaceRecord>>,
     pub triangulations: Vec<Triangulation>,
     pub shapes: Vec<Shape>,
+    /// The geometry of all edges.
+    pub on: Vec<On>,
     pub root: Sub,
+}
+
+impl Dump {
+    /// The geometry of an edge.
+    pub fn on(&self, [first, end]: [u32; 2]) -> &[On] {
+        &self.on[first as usize..end as usize]
+    }
 }

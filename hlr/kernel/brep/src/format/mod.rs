@@ -89,8 +89,8 @@ fn dump(tokens: &mut impl Tokens) -> Read<Dump> {
         surfaces: surfaces.len(),
         triangulations: triangulations.len(),
     };
-    let (shapes, root) = shapes::read(tokens, &limits)?;
-    Ok(Dump { locations, curves2, curves, polygons, surfaces, triangulations, shapes, root })
+    let (shapes, on, root) = shapes::read(tokens, &limits)?;
+    Ok(Dump { locations, curves2, curves, polygons, surfaces, triangulations, shapes, on, root })
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Reads the section of underlying shapes (TShapes).
 
+use smallvec::SmallVec;
+
 use super::orientation::Orientation;
 use super::tokens::{FLAGS, Read, Table, Tokens};
 
@@ -28,16 +30,34 @@ pub enum Kind {
     CompSolid,
     Solid,
     Shell,
-    Face { tolerance: f64, surface: Option<usize>, location: u32, triangulation: Option<usize> },
+    Face {
+        tolerance: f64,
+        surface: Option<usize>,
+        location: u32,
+        triangulation: Option<usize>,
+    },
     Wire,
-    Edge { tolerance: f64, same_parameter: bool, degenerate: bool, on: Vec<On>, continuity: u8 },
-    Vertex { tolerance: f64, point: [f64; 3] },
+    /// on: where its geometry begins and ends in the table of all (`Dump::on`).
+    Edge {
+        tolerance: f64,
+        same_parameter: bool,
+        degenerate: bool,
+        on: [u32; 2],
+        continuity: u8,
+    },
+    Vertex {
+        tolerance: f64,
+        point: [f64; 3],
+    },
 }
+
+/// The shapes inside a shape: an edge has two, most faces one.
+pub type Subs = SmallVec<[Sub; 2]>;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
     pub kind: Kind,
-    pub subs: Vec<Sub>,
+    pub subs: Subs,
 }
 
 /// Number of items of each kind that a shape may refer to.
@@ -51,9 +71,9 @@ pub struct Limits {
     pub triangulations: usize,
 }
 
-pub fn read(bytes: &mut impl Tokens, limits: &Limits) -> Read<(Vec<Shape>, Sub)> {
+pub fn read(bytes: &mut impl Tokens, limits: &Limits) -> Read<(Vec<Shape>, Vec<On>, Sub)> {
     let count = bytes.header(Table::Shapes, 1 + FLAGS + 1)?;
-    let mut shapes: Vec<Shape> = Vec::new();
+    let (mut shapes, mut on): (Vec<Shape>, Vec<On>) = Default::default();
     for number in 0..count {
         let kind = match bytes.shape()? {
             0 => Kind::Compound,
@@ -62,12 +82,12 @@ pub fn read(bytes: &mut impl Tokens, limits: &Limits) -> Read<(Vec<Shape>, Sub)>
             3 => Kind::Shell,
             4 => face(bytes, limits)?,
             5 => Kind::Wire,
-            6 => edge(bytes, limits)?,
+            6 => edge(bytes, limits, &mut on)?,
             7 => vertex(bytes, limits)?,
             _ => return bytes.fault("a shape of unknown kind"),
         };
         bytes.flags()?;
-        let mut subs = Vec::new();
+        let mut subs = Subs::new();
         while let Some(sub) = sub(bytes, count, limits)? {
             // A shape may refer only to shapes before it, so it cannot contain itself.
             if sub.shape as usize >= number || !may_hold(&kind, &shapes[sub.shape as usize].kind) {
@@ -78,7 +98,7 @@ pub fn read(bytes: &mut impl Tokens, limits: &Limits) -> Read<(Vec<Shape>, Sub)>
         shapes.push(Shape { kind, subs });
     }
     match sub(bytes, count, limits)? {
-        Some(root) => Ok((shapes, root)),
+        Some(root) => Ok((shapes, on, root)),
         None => bytes.fault("a dump of nothing"),
     }
 }
@@ -135,14 +155,18 @@ fn vertex(bytes: &mut impl Tokens, limits: &Limits) -> Read<Kind> {
     }
 }
 
-fn edge(bytes: &mut impl Tokens, limits: &Limits) -> Read<Kind> {
+/// An edge; its geometry is added to `on`.
+fn edge(bytes: &mut impl Tokens, limits: &Limits, on: &mut Vec<On>) -> Read<Kind> {
     let tolerance = bytes.finite()?;
     let (same_parameter, _same_range, degenerate) = (bytes.flag()?, bytes.flag()?, bytes.flag()?);
-    let (mut on, mut continuity) = (Vec::new(), 0);
+    let (first, mut continuity) = (on.len() as u32, 0);
     loop {
         let kind = bytes.representation()?;
         match kind {
-            0 => return Ok(Kind::Edge { tolerance, same_parameter, degenerate, on, continuity }),
+            0 => {
+                let on = [first, on.len() as u32];
+                return Ok(Kind::Edge { tolerance, same_parameter, degenerate, on, continuity });
+            }
             1 => {
                 let curve = bytes.maybe_index(Table::Curves, limits.curves)?;
                 let location = location(bytes, limits)?;

@@ -9,14 +9,14 @@
 //! end
 //! ```
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use super::bytes::Bytes;
 use super::curves::{plane_curve, space_curve};
 use super::dump::Dump;
 use super::locations::Locations;
 use super::orientation::Orientation;
-use super::shapes::{Kind, On, Shape, Sub, may_hold};
+use super::shapes::{Kind, On, Shape, Sub, Subs, may_hold};
 use super::surfaces::{SurfaceRecord, surface};
 use super::tokens::{Read, Tokens};
 use crate::geometry::curve::Curve;
@@ -39,6 +39,9 @@ pub const SHAPES: std::ops::Range<u8> = 200..232;
 
 /// Limit on the nesting of shapes.
 const DEEPEST: usize = 200;
+
+/// A shape takes about as many, with its geometry.
+const BYTES_OF_A_SHAPE: usize = 128;
 
 /// Numbers by the places at which their items begin.
 type Places = FxHashMap<usize, usize>;
@@ -66,10 +69,12 @@ pub fn read(data: &[u8]) -> Read<Dump> {
         polygons: Vec::new(),
         surfaces: Vec::new(),
         triangulations: Vec::new(),
-        shapes: Vec::new(),
+        shapes: Vec::with_capacity(data.len() / BYTES_OF_A_SHAPE),
+        on: Vec::new(),
         root,
     };
-    let [shapes, locations, curves, curves2, surfaces] = std::array::from_fn(|_| Places::default());
+    let [locations, curves, curves2, surfaces] = std::array::from_fn(|_| Places::default());
+    let shapes = Places::with_capacity_and_hasher(data.len() / BYTES_OF_A_SHAPE, FxBuildHasher);
     let bytes = Bytes::without_header(data);
     let mut stream = Stream { bytes, dump, shapes, locations, curves, curves2, surfaces };
     match stream.shape(0)? {
@@ -128,7 +133,7 @@ impl Stream<'_> {
             _ => self.vertex()?,
         };
         self.bytes.kind()?; // flags
-        let mut subs = Vec::new();
+        let mut subs = Subs::new();
         while let Some(sub) = self.shape(nested + 1)? {
             if !may_hold(&kind, &self.dump.shapes[sub.shape as usize].kind) {
                 return self.bytes.unsupported("a shape where it cannot be");
@@ -262,16 +267,19 @@ impl Stream<'_> {
         let tolerance = self.bytes.finite()?;
         let flags = self.bytes.kind()?;
         let (same_parameter, degenerate) = (flags & 1 != 0, flags & 4 != 0);
-        let (mut on, mut continuity) = (Vec::new(), 0);
+        let (first, mut continuity) = (self.dump.on.len() as u32, 0);
         loop {
             let kind = self.bytes.kind()?;
             match kind {
-                0 => return Ok(Kind::Edge { tolerance, same_parameter, degenerate, on, continuity }),
+                0 => {
+                    let on = [first, self.dump.on.len() as u32];
+                    return Ok(Kind::Edge { tolerance, same_parameter, degenerate, on, continuity });
+                }
                 1 => {
                     let curve = self.curve()?;
                     let location = self.location()?;
                     let range = [self.bytes.real()?, self.bytes.real()?];
-                    on.extend(curve.map(|curve| On::Curve { curve, location, range }));
+                    self.dump.on.extend(curve.map(|curve| On::Curve { curve, location, range }));
                 }
                 2 | 3 => {
                     let one = self.curve2()?;
@@ -283,7 +291,8 @@ impl Stream<'_> {
                     let location = self.location()?;
                     let range = [self.bytes.real()?, self.bytes.real()?];
                     let curves = [self.due(one)?, self.due(two)?];
-                    on.push(On::Surface { curves, surface: self.due(surface)?, location, range });
+                    let surface = self.due(surface)?;
+                    self.dump.on.push(On::Surface { curves, surface, location, range });
                 }
                 4 => {
                     continuity = continuity.max(1 + self.bytes.kind()?.min(100));
