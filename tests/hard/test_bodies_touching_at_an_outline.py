@@ -84,3 +84,33 @@ def test_three_in_a_row():
     found = sorted(round(float(line.points[0][0]), 3) for line in drawing.lines if line.kind == "outline")
     assert found == [0.0, 10.0, 20.0, 30.0]
     assert all(line.visible for line in drawing.lines)
+
+
+def lid(behind, from_height=-100.0):
+    """A wide plate, and how far its near side is behind the middles of the rollers; no diagonal of it crosses them."""
+    return cq.Workplane("XY").box(200.0, 2.0, 200.0).translate((45.0, behind + 1.0, from_height + 100.0))
+
+
+def looked_at(bodies):
+    """The line between the rollers: whether visible, and heights of both ends; and how many edges were compared anew."""
+    drawing = hlr.draw([body.val() for body in bodies], FRONT, hidden=True, scale=1.0)
+    between = [line for line in drawing.lines if abs(line.points3[:, :2] - (RADIUS, 0.0)).max() < 0.1]
+    found = [(line.visible, *sorted(round(float(z), 2) for z in line.points3[[0, -1], 2])) for line in between]
+    return sorted(found), drawing.counters["freed_of_own_faces"]
+
+
+def test_what_a_lid_hides_from_farther_away_than_a_contact_is_not_compared_once_more():
+    pair = [roller(0.0), roller(10.0)]
+    seen, compared = looked_at(pair)
+    assert seen == [(True, 0.0, LENGTH)]
+    for behind in (-22.0, -7.0):
+        found, again = looked_at([*pair, lid(behind)])
+        assert found == [(False, 0.0, LENGTH)] and again < compared
+    assert looked_at([*pair, lid(20.0)]) == (seen, compared)
+
+
+@pytest.mark.parametrize("height", (0.5, 10.0, 19.5))
+@pytest.mark.parametrize("behind", (-22.0, -7.0))
+def test_a_lid_over_a_part_of_the_line(height, behind):
+    found, _ = looked_at([roller(0.0), roller(10.0), lid(behind, height)])
+    assert found == [(False, height, LENGTH), (True, 0.0, height)]

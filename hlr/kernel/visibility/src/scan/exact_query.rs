@@ -72,6 +72,12 @@ impl<'a> ExactQuery<'a> {
         tree.query(&reach, |t| visit(t as usize));
     }
 
+    /// Whether `wanted` is true of a polygon that may lie in front of a box.
+    pub fn any_in_front(&self, mut reach: Aabb, mut wanted: impl FnMut(usize) -> bool) -> bool {
+        reach.low[2] = i32::MIN;
+        self.tree().any(&reach, |t| wanted(t as usize))
+    }
+
     /// The same as `decide`, where the edge may have another position for some polygons. `polygons`: those it is
     /// compared with, and its ends for each; `delta`: how far it is moved toward the viewer before that.
     pub fn decide_by<'p, A: Arithmetic>(
@@ -89,6 +95,11 @@ impl<'a> ExactQuery<'a> {
                 continue;
             }
             let Some(cover) = mesh.cover::<A>(t) else { continue };
+            // Most that are left lie beyond one border of the polygon, or before its plane: it hides nothing of them.
+            let Some(ends) = Ends::over(&cover, a, b) else { continue };
+            if ends.beneath.iter().all(|g| *g < A::Volume::ZERO) {
+                continue;
+            }
             let delta = delta(t);
             let (plain, moved) = cover.hides_end(a, b, delta);
             start.plain += i32::from(plain);
@@ -107,11 +118,9 @@ impl<'a> ExactQuery<'a> {
                     events.push(Event { drawn: 0, at, plain: hit.to_left, moved });
                 }
             }
-            if let Some(ends) = Ends::over(&cover, a, b) {
-                pierce(&cover, &ends, delta, |at, plain, moved| {
-                    events.push(Event { drawn: 0, at, plain, moved });
-                });
-            }
+            pierce(&cover, &ends, delta, |at, plain, moved| {
+                events.push(Event { drawn: 0, at, plain, moved });
+            });
         }
         walk(start, &mut events, end, out)
     }

@@ -350,9 +350,11 @@ impl OwnFaces<'_> {
         let middle = |(a, b): Ends| [0, 1].map(|k| f64::from(a[k]) + f64::from(b[k]));
         let from = middle(mesh.ends(self.stretches.line[stretch] as usize));
         let to = middle(mesh.ends(self.stretches.off[self.stretches.faces(stretch).start] as usize));
-        let (outward, normal) = ([to[0] - from[0], to[1] - from[1]], self.slant(mesh).normal(t));
-        let length = (outward[0] * outward[0] + outward[1] * outward[1]).sqrt();
-        normal[0] * outward[0] + normal[1] * outward[1] < FACING * length
+        let outward = [to[0] - from[0], to[1] - from[1]];
+        let cosine = |normal: [f64; 3]| normal[0] * outward[0] + normal[1] * outward[1];
+        let (slant, length) = (self.slant(mesh), (outward[0] * outward[0] + outward[1] * outward[1]).sqrt());
+        // Half of all polygons are turned the same way as the outline: no root is taken for them.
+        cosine(slant.across(t)) < 0.0 && cosine(slant.normal(t)) < FACING * length
     }
 
     fn edge_on(&self, mesh: &Mesh, t: usize) -> bool {

@@ -35,14 +35,19 @@ impl Slant<'_> {
 
     /// The unit normal of a polygon, outward of a closed body: x right, y up, z toward the viewer.
     pub fn normal(&self, t: usize) -> [f64; 3] {
+        let n = self.across(t);
+        let length = (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt().max(f64::MIN_POSITIVE);
+        n.map(|c| c / length)
+    }
+
+    /// The same of any length.
+    pub fn across(&self, t: usize) -> [f64; 3] {
         let (p, q, r) = self.mesh.corners(t);
         // Depth grows away from the viewer.
         let place = |p: &Point| [f64::from(p[0]), f64::from(p[1]), -f64::from(p[2]) / self.depth_scale];
         let (p, q, r) = (place(p), place(q), place(r));
         let (u, v) = ([0, 1, 2].map(|k| q[k] - p[k]), [0, 1, 2].map(|k| r[k] - p[k]));
-        let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-        let length = (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt().max(f64::MIN_POSITIVE);
-        n.map(|c| c / length)
+        [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
     }
 
     /// How far an edge is moved toward the viewer before it is compared with this polygon alone.

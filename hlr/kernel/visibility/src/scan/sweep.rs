@@ -208,7 +208,7 @@ impl Pass<'_> {
         let slant = own.slant(mesh);
         (pieces, self.counters.slanted_contacts) =
             compared_again::<A>(&slant, &exact, &pierced.slanted, pieces, stopped);
-        differing.extend(touching(mesh, own, &exact, &pierced.sought, &pieces, stopped));
+        differing.extend(touching::<A>(mesh, own, &exact, &pierced.sought, &pieces, stopped));
         differing.sort_unstable_by_key(|run| run.start);
         differing.dedup();
         (pieces, self.counters.freed_of_own_faces) = own.applied::<A>(mesh, table, &exact, &differing, pieces, stopped);

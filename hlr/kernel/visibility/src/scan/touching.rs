@@ -20,10 +20,13 @@ use super::exact_query::ExactQuery;
 use super::invisibility::{Piece, State};
 use super::mesh::Mesh;
 use super::own_faces::OwnFaces;
+use crate::boxes::aabb::Aabb;
+use hlr_exact::Point;
+use hlr_exact::arithmetic::{Arithmetic, Ring};
 
 /// The outlines, each as its stretches, that are hidden in part and lie at polygons of other groups, or at polygons of
 /// their own that face them. near: per group, whether others come near it; pieces ascend by edge.
-pub fn touching(
+pub fn touching<A: Arithmetic>(
     mesh: &Mesh,
     own: &OwnFaces,
     exact: &ExactQuery,
@@ -57,5 +60,25 @@ pub fn touching(
             found
         })
     };
-    outlines.into_par_iter().filter(|run| !stopped() && touches(run)).collect()
+    let stays = |run: &Range<usize>| run.clone().all(|stretch| is_far_behind::<A>(mesh, own, exact, stretch));
+    outlines.into_par_iter().filter(|run| !stopped() && touches(run) && !stays(run)).collect()
+}
+
+/// Whether a single polygon of another group hides a stretch wherever it is moved to, from farther away than any contact.
+fn is_far_behind<A: Arithmetic>(mesh: &Mesh, own: &OwnFaces, exact: &ExactQuery, stretch: usize) -> bool {
+    let group = mesh.edge_group[own.stretches.edge[stretch] as usize];
+    let (slant, reach) = (own.slant(mesh), own.reach(mesh, stretch));
+    let Aabb { low, high } = reach;
+    let around = [low[0], high[0]].map(|x| [low[1], high[1]].map(|y| [x, y, 0]));
+    exact.any_in_front(reach, |t| {
+        let (p, q, r) = mesh.corners(t);
+        let before = i64::from(low[2]) - i64::from(p[2].max(q[2]).max(r[2]));
+        before > 0
+            && mesh.triangle_group[t] != group
+            && mesh.cover::<A>(t).is_some_and(|cover| {
+                let inside = |corner: &Point| cover.sides(corner).iter().all(|side| *side > A::Area::ZERO);
+                around.as_flattened().iter().all(inside)
+            })
+            && before > slant.delta(group, t)
+    })
 }
