@@ -7,6 +7,7 @@ the next turn, and the line had gaps.
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 import cadquery as cq
 import numpy as np
@@ -60,6 +61,16 @@ def test_of_any_size(factor):
     solid = spring(0.0, WIRE * factor, RADIUS * factor)
     drawing = hlr.draw(solid, "front", scale=3 / factor, accuracy=0.05, details=True)
     assert max(widest_space(drawing, share) for share in SHARES) < 1.2 * WIRE * 3
+
+
+@pytest.mark.parametrize("edge", [-3.0, -1.41, 0.0, 0.77])
+def test_beside_a_lid_over_a_part_of_it(edge):
+    """What the lid hides from far away is not compared once more; what it leaves free is."""
+    lid = cq.Workplane().box(100, 1, 100).translate((edge - 50.0, -20.0, 0.0))
+    drawing = hlr.draw([spring(0.0).val(), lid.val()], "front", scale=3, accuracy=0.05, details=True)
+    seen = SimpleNamespace(visible=[line for line in drawing.visible if line.part == 0])
+    assert min(line.points3[:, 0].min() for line in seen.visible) > edge - 0.05
+    assert max(widest_space(seen, share) for share in np.linspace(0.01, 0.6, 60)) < 1.2 * WIRE * 3
 
 
 def test_in_perspective():
