@@ -92,7 +92,7 @@ def lid(behind, from_height=-100.0):
 
 
 def looked_at(bodies):
-    """The line between the rollers: whether visible, and heights of both ends; and how many edges were compared anew."""
+    """The line between the rollers: whether visible, heights of both ends; and how many edges were compared anew."""
     drawing = hlr.draw([body.val() for body in bodies], FRONT, hidden=True, scale=1.0)
     between = [line for line in drawing.lines if abs(line.points3[:, :2] - (RADIUS, 0.0)).max() < 0.1]
     found = [(line.visible, *sorted(round(float(z), 2) for z in line.points3[[0, -1], 2])) for line in between]
