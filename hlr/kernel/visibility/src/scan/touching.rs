@@ -21,7 +21,6 @@ use super::invisibility::{Piece, State};
 use super::mesh::Mesh;
 use super::own_faces::OwnFaces;
 use crate::boxes::aabb::Aabb;
-use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
 
 /// The outlines, each as its stretches, that are hidden in part and lie at polygons of other groups, or at polygons of
@@ -69,16 +68,18 @@ fn is_far_behind<A: Arithmetic>(mesh: &Mesh, own: &OwnFaces, exact: &ExactQuery,
     let group = mesh.edge_group[own.stretches.edge[stretch] as usize];
     let (slant, reach) = (own.slant(mesh), own.reach(mesh, stretch));
     let Aabb { low, high } = reach;
-    let around = [low[0], high[0]].map(|x| [low[1], high[1]].map(|y| [x, y, 0]));
+    // The nearest corners of a box around the stretch: where they all are behind, everything within is.
+    let nearest = [low[0], high[0]].map(|x| [low[1], high[1]].map(|y| [x, y, low[2]]));
     exact.any_in_front(reach, |t| {
-        let (p, q, r) = mesh.corners(t);
-        let before = i64::from(low[2]) - i64::from(p[2].max(q[2]).max(r[2]));
-        before > 0
-            && mesh.triangle_group[t] != group
-            && mesh.cover::<A>(t).is_some_and(|cover| {
-                let inside = |corner: &Point| cover.sides(corner).iter().all(|side| *side > A::Area::ZERO);
-                around.as_flattened().iter().all(inside)
+        let Some(cover) = mesh.cover::<A>(t) else { return false };
+        let sides = nearest.as_flattened().iter().map(|corner| (corner, cover.sides(corner)));
+        let beneath = |delta: i64| {
+            let shift = cover.shift(delta);
+            sides.clone().all(|(corner, sides)| {
+                sides.iter().all(|side| *side > A::Area::ZERO) && cover.beneath(corner, &sides) > shift
             })
-            && before > slant.delta(group, t)
+        };
+        // How far a contact reaches is asked for last: it takes a root.
+        mesh.triangle_group[t] != group && beneath(0) && beneath(slant.delta(group, t))
     })
 }
