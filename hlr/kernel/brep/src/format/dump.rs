@@ -17,7 +17,7 @@ pub struct Dump {
     pub surfaces: Vec<Option<SurfaceRecord>>,
     pub triangulations: Vec<Triangulation>,
     pub shapes: Vec<Shape>,
-    /// The geometry of all edges.
+    /// The geometry of all edges, one edge after another.
     pub on: Vec<On>,
     pub root: Sub,
 }

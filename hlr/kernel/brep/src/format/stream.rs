@@ -40,7 +40,7 @@ pub const SHAPES: std::ops::Range<u8> = 200..232;
 /// Limit on the nesting of shapes.
 const DEEPEST: usize = 200;
 
-/// A shape takes about as many, with its geometry.
+/// A shape takes about as many bytes of a stream, with its geometry.
 const BYTES_OF_A_SHAPE: usize = 128;
 
 /// Numbers by the places at which their items begin.

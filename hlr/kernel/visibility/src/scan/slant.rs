@@ -40,7 +40,7 @@ impl Slant<'_> {
         n.map(|c| c / length)
     }
 
-    /// The same of any length.
+    /// A normal of a polygon as that one, but of any length.
     pub fn across(&self, t: usize) -> [f64; 3] {
         let (p, q, r) = self.mesh.corners(t);
         // Depth grows away from the viewer.

@@ -3,7 +3,8 @@
 //! An outline is moved off its face before it is compared with any polygon. Where another body touches the face there,
 //! it is moved into that body, which then hides all of it, however short the way. So the hidden ones of these are
 //! compared once more, in their true place, with all polygons but those of their own faces (`own_faces`). Where a body
-//! touches itself, those polygons count as another body's that face the outline (`OwnFaces::faces`).
+//! touches itself, those polygons count as another body's that face the outline (`OwnFaces::faces`). What a polygon hides
+//! from farther away than any contact stays hidden, and is not asked.
 //!
 //! ```text
 //!       sight |  |
