@@ -201,7 +201,7 @@ fn crossings<'a>(
 
 /// Whether two triangles of one face share both nodes of an edge, so that they have one crossing. All nodes of a pole
 /// count as one: their parameter around the pole has no meaning.
-fn same_nodes(model: &Model, values: &[f64], e: usize, around: &[i32]) -> bool {
+pub(super) fn same_nodes(model: &Model, values: &[f64], e: usize, around: &[i32]) -> bool {
     let (s, t) = (around[0] as usize, around[1] as usize);
     if model.triangle_face[s] != model.triangle_face[t] {
         return false;

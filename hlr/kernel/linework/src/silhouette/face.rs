@@ -83,6 +83,12 @@ impl<'a> Face<'a> {
         Some((f, slope, speed))
     }
 
+    /// How fast f grows along a way in the parameters, as far as the surface alone tells.
+    pub fn growth(&self, uv: [f64; 2], way: [f64; 2]) -> Option<f64> {
+        let (_, slope, speed) = self.f_and_slopes(uv)?;
+        Some(slope[0] * speed[0] * way[0] + slope[1] * speed[1] * way[1])
+    }
+
     /// The normal; at a pole that of a place close by, in the direction of the parameters `beside`.
     pub fn normal_toward(&self, uv: [f64; 2], beside: [f64; 2]) -> Option<Vector> {
         self.outward(self.surface.normal_toward(uv, beside))

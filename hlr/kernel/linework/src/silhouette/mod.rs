@@ -8,6 +8,7 @@
 //! ```text
 //!    `sought`   on which faces
 //! 1. `face`     f on the true surface of a face, and how the surface curves along the line of sight
+//!    `narrow`   adds nodes to strips that narrow to less than a triangle, in a `divided` mesh
 //!    `wrinkle`  removes changes of sign where the surface turns over and back within less than the tolerance
 //! 2. `contour`  mesh edges where f changes its sign: the crossing is found on the true surface; where the two faces at
 //!               an edge change sign at different places, the edge itself is the fold in between, so no gap is left
@@ -16,6 +17,7 @@
 //!    `behind`   farther borders of walls seen edge-on, where the surface comes toward the viewer by steps
 //! 3. `refine`   adds points on the surface between crossings until the chords are near enough; divides at cusps
 //! 4. `trace`    joins them into curves, divided where the face, the edge or the sign of the curvature changes,
+//!    `poles`    at poles and apexes, too,
 //!    `split`    and where the image of a curve would lie on itself
 //! 5. `curve`    a circle where that is exact, else cubic pieces through the points with their tangents
 //!    `facing`   which of them face one another, where a body touches itself
@@ -31,12 +33,15 @@ mod behind;
 mod contour;
 mod crossed;
 pub(crate) mod curve;
+mod divided;
 mod face;
 mod facing;
 pub mod grazing;
 pub mod image;
+mod narrow;
 pub mod outlined;
 mod own_lines;
+mod poles;
 mod refine;
 pub(crate) mod side;
 pub mod sought;

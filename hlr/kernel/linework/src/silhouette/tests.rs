@@ -258,3 +258,60 @@ fn an_outline_reaches_a_border_although_the_middle_of_its_chord_has_no_normal() 
     let reach = |y: f64| points.iter().any(|p| (p[1] - y).abs() < 1e-6);
     assert!(reach(0.0) && reach(10.0), "{points:?}");
 }
+
+/// z = y³ - (d + x²) y for x and y from -1 to 1: between y = ±√((d + x²) / 3) it falls away from the viewer. No node
+/// lies in the middle of this strip.
+fn furrow(d: f64) -> Body {
+    let (still, steady, squared, cubed) =
+        ([1.0; 4], [-1.0, -1.0 / 3.0, 1.0 / 3.0, 1.0], [1.0, -1.0 / 3.0], [-1.0, 1.0]);
+    let mut record = vec![3.0, 3.0, 4.0, 4.0, 0.0, 0.0];
+    let knots = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+    record.extend(knots.iter().chain(&knots));
+    for i in 0..4 {
+        let width = d * still[i] + squared[usize::from(i == 1 || i == 2)];
+        for j in 0..4 {
+            record.extend([steady[i], steady[j], cubed[j % 2] - width * steady[j], 1.0]);
+        }
+    }
+    let surface = Surface::read(8, &record).expect("a surface");
+    let side = 8;
+    let uv: Vec<[f64; 2]> =
+        (0..side * side).map(|k| [k % side, k / side].map(|step| f64::from(step) / f64::from(side - 1))).collect();
+    let cells = (0..side - 1).flat_map(|row| (0..side - 1).map(move |k| side * row + k));
+    let triangles: Vec<[i32; 3]> =
+        cells.flat_map(|k| [[k, k + 1, k + side + 1], [k, k + side + 1, k + side]]).collect();
+    let points = uv.iter().map(|&uv| surface.d1(uv).0).collect();
+    Body { points, corner: triangles.clone(), triangles, uv, surface }
+}
+
+#[test]
+fn two_outlines_go_on_where_less_than_a_triangle_lies_between_them() {
+    for d in [0.05, 0.01, 3e-3, 1e-3] {
+        let body = furrow(d);
+        for p in &body.points {
+            assert!((p[2] - p[1].powi(3) + (d + p[0] * p[0]) * p[1]).abs() < 1e-12, "{p:?}");
+        }
+        let found = body.traced(false, false).expect("an answer").silhouettes;
+        assert_eq!(found.len(), 2, "{d}");
+        for line in &found {
+            let sign = line.points[0][1].signum();
+            assert_eq!(line.concave, sign > 0.0, "{d}");
+            for [x, y, _] in &line.points {
+                assert!((y - sign * ((d + x * x) / 3.0).sqrt()).abs() < 1e-6, "{d} {x} {y}");
+            }
+            let ends = [line.points[0][0], line.points[line.points.len() - 1][0]];
+            assert!((ends[0] - ends[1]).abs() > 2.0 - 1e-9, "{d} {ends:?}");
+            let step = line.points.windows(2).map(|p| (p[1][0] - p[0][0]).abs()).fold(0.0, f64::max);
+            assert!(step < 0.5, "{d} {step}");
+        }
+    }
+}
+
+/// Where the strip closes before it comes to other changes of sign, or nowhere opens, there is nothing to go on with.
+#[test]
+fn outlines_of_a_strip_that_closes_turn_back() {
+    let found = furrow(-0.1).traced(false, false).expect("an answer").silhouettes;
+    assert!(found.iter().flat_map(|line| &line.points).all(|p| p[0] * p[0] > 0.1), "{found:?}");
+    let reach = found.iter().flat_map(|line| &line.points).map(|p| p[0].abs()).fold(1.0, f64::min);
+    assert!(reach < 0.8, "{reach}");
+}
