@@ -153,7 +153,7 @@ fn filled(field: &Field, chart: &Outline, steps: &Progress) -> Result<Option<Fil
             inner.retain(|&p| {
                 steps.step();
                 places.push(p);
-                let new = net.insert(&places, places.len() as u32 - 2, steps);
+                let new = net.insert(&places, net.with(places.len() as u32 - 2), steps);
                 if !new {
                     places.pop();
                 }
@@ -343,7 +343,7 @@ impl<'a> Work<'a> {
         coarse.sort_by(|a, b| b.order(a));
         let mut touched = vec![false; self.corners.len()];
         let mut any = false;
-        for Coarse { gap, corners: t, .. } in coarse {
+        for Coarse { gap, corners: t, number } in coarse {
             if self.steps.is_half_spent() {
                 break;
             }
@@ -352,7 +352,7 @@ impl<'a> Work<'a> {
             }
             let Some(place) = self.place(gap, *t) else { continue };
             self.places.push(place);
-            if self.net.insert(&self.places, t[0], self.steps) {
+            if self.net.insert(&self.places, *number, self.steps) {
                 t.iter().for_each(|&i| touched[i as usize] = true);
                 self.add(self.field.on_surface(place), None);
                 any = true;

@@ -7,7 +7,7 @@
 use robust::{Coord, incircle};
 
 use super::flip::{NONE, after_in, before_in, turn, twins};
-use super::plane::side;
+use super::plane::{distance2, side};
 use super::progress::Progress;
 
 /// Limit on flips, in multiples of the number of triangles. More flips mean that the initial triangles are unusable.
@@ -15,8 +15,8 @@ const MOST_TURNS: usize = 200;
 /// Further flips for each point that waits to be inserted: they take a part of the time that the point takes. Without
 /// inner points, a long outline needs flips by the square of its length.
 const MOST_TURNS_A_POINT: usize = 20;
-/// Limit on searches through all triangles, for points that the walk does not reach.
-const MOST_SEARCHES: usize = 2000;
+/// Limit on the triangles from which a walk is tried anew.
+const MOST_OTHERS: usize = 8;
 
 pub struct Triangulation {
     triangles: Vec<[u32; 3]>,
@@ -25,7 +25,6 @@ pub struct Triangulation {
     /// For each point an edge that begins at it.
     begins: Vec<u32>,
     stack: Vec<u32>,
-    searches: usize,
 }
 
 impl Triangulation {
@@ -41,7 +40,7 @@ impl Triangulation {
                 }
             }
         }
-        Triangulation { triangles, twins, begins, stack: Vec::new(), searches: 0 }
+        Triangulation { triangles, twins, begins, stack: Vec::new() }
     }
 
     pub fn triangles(&self) -> &[[u32; 3]] {
@@ -97,15 +96,18 @@ impl Triangulation {
         true
     }
 
-    /// Inserts the last one of the places; the search begins at the point `near`. False if the place is on the border,
-    /// at another point, or outside.
-    pub fn insert(&mut self, places: &[[f64; 2]], near: u32, steps: &Progress) -> bool {
+    /// A triangle with this corner; the first triangle where there is none.
+    pub fn with(&self, point: u32) -> usize {
+        self.begins.get(point as usize).copied().filter(|&e| e != NONE).unwrap_or(0) as usize / 3
+    }
+
+    /// Inserts the last one of the places; the search begins at the triangle `near`. False if the place is on the border,
+    /// at another point, or outside, and where the border is in the way from there and from others nearby.
+    pub fn insert(&mut self, places: &[[f64; 2]], near: usize, steps: &Progress) -> bool {
         let point = places.len() as u32 - 1;
         let p = &places[point as usize];
-        let start = self.begins.get(near as usize).copied().filter(|&e| e != NONE).unwrap_or(0) as usize / 3;
-        let Some(found) = self.walk(places, p, start, steps).or_else(|| self.search(places, p, steps)) else {
-            return false;
-        };
+        let found = self.walk(places, p, near, steps).or_else(|| self.walk_from_others(places, p, steps));
+        let Some(found) = found else { return false };
         let on: Vec<usize> = (3 * found..3 * found + 3).filter(|&e| self.beside(places, e, p) == 0.0).collect();
         self.begins.resize(places.len(), NONE);
         match on[..] {
@@ -156,16 +158,17 @@ impl Triangulation {
         None
     }
 
-    fn search(&mut self, places: &[[f64; 2]], p: &[f64; 2], steps: &Progress) -> Option<usize> {
-        self.searches += 1;
-        if self.searches > MOST_SEARCHES {
-            return None;
-        }
-        let around = |&t: &usize| {
-            steps.step();
-            (3 * t..3 * t + 3).all(|e| self.beside(places, e, p) >= 0.0)
+    /// Walks from the nearest ones of some triangles, where the border was in the way.
+    fn walk_from_others(&self, places: &[[f64; 2]], p: &[f64; 2], steps: &Progress) -> Option<usize> {
+        let every = self.triangles.len().isqrt();
+        let away = |t: usize| {
+            let corner = &places[self.triangles[t][0] as usize];
+            distance2(p, corner, corner)
         };
-        (0..self.triangles.len()).find(around)
+        let mut others: Vec<(f64, usize)> = (0..self.triangles.len()).step_by(every).map(|t| (away(t), t)).collect();
+        steps.steps(others.len() as u64);
+        others.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        others.iter().take(MOST_OTHERS).find_map(|&(_, t)| self.walk(places, p, t, steps))
     }
 
     /// Replaces the triangles of a closed chain of edges by triangles from a point inside to each edge.
@@ -227,7 +230,7 @@ mod tests {
             let [x, y] = places[places.len() - 1];
             let inside = x > 0.0 && x < 1.0 && y > 0.0 && y < 1.0;
             let new = !places[..places.len() - 1].contains(&[x, y]);
-            let near = k % 7 % places.len() as u32;
+            let near = net.with(k % 7 % places.len() as u32);
             assert_eq!(net.insert(&places, near, &Progress::free()), inside && new, "{x} {y}");
             if !(inside && new) {
                 places.pop();
@@ -248,6 +251,23 @@ mod tests {
         let before = net.triangles.clone();
         assert!(net.settle(&places, net.triangles.len(), 0, &Progress::free()));
         assert_eq!(net.triangles, before);
+    }
+
+    #[test]
+    fn a_place_behind_a_notch_is_found_and_one_in_the_notch_is_not() {
+        // A U: the left arm is triangles 2 and 3, the right arm 4 and 5.
+        let corners = [[0, 0], [3, 0], [3, 2], [2, 2], [2, 1], [1, 1], [1, 2], [0, 2]];
+        let corners = corners.map(|p| p.map(f64::from));
+        let triangles = vec![[0, 1, 4], [0, 4, 5], [0, 5, 6], [0, 6, 7], [1, 2, 3], [1, 3, 4]];
+        for (place, inside) in [([2.5, 1.9], true), ([0.5, 1.9], true), ([1.5, 1.5], false), ([4.0, 1.0], false)] {
+            for near in 0..triangles.len() {
+                let mut net = Triangulation::new(corners.len(), triangles.clone(), |_, _| false);
+                let places: Vec<_> = corners.iter().copied().chain([place]).collect();
+                assert_eq!(net.insert(&places, near, &Progress::free()), inside, "{place:?} {near}");
+                assert_eq!(net.triangles.len(), triangles.len() + if inside { 2 } else { 0 });
+                assert!(net.triangles.iter().all(|t| side_of(&places, t) > 0.0));
+            }
+        }
     }
 
     fn side_of(places: &[[f64; 2]], t: &[u32; 3]) -> f64 {

@@ -5,7 +5,9 @@ use hlr_accuracy::MESH_COARSER;
 use super::tessellation::MeshedFace;
 use crate::edges::Polyline;
 use crate::faces::{Border, border};
-use crate::mesh::{FaceMesh, Fault, Progress, mesh_face, upon_one_another};
+use crate::geometry::curve::Curve;
+use crate::geometry::surface::Surface;
+use crate::mesh::{FaceMesh, Fault, Progress, long_chords, mesh_face, upon_one_another};
 use crate::model::Model;
 use crate::shapes::Face;
 
@@ -83,6 +85,16 @@ pub fn try_face(
     }
     let chords: Vec<_> = kept.iter().map(|&i| &chords[i]).collect();
     loops.loops.retain(encloses);
+    if divisible.coarse && matches!(surface, Surface::Spline(_) | Surface::Offset(..)) {
+        let is_straight = |chord: &(u32, u32)| matches!(model.edges[chord.0 as usize].curve, Some(Curve::Line { .. }));
+        if chords.iter().flat_map(|row| row.iter().flatten()).any(is_straight) {
+            let long = long_chords(surface, &loops, deflection, angle, steps).into_iter();
+            let long: Vec<_> = long.filter_map(|[l, c]| *chords.get(l)?.get(c)?).filter(is_straight).collect();
+            if !long.is_empty() {
+                return Tried { waits: true, ..failed(Fault::NotCertified(f64::INFINITY, Vec::new()), long) };
+            }
+        }
+    }
     match mesh_face(surface, &loops, deflection, angle, steps) {
         Ok(mesh) => Tried { face: MeshedFace { mesh, nodes, fault: None, off }, coarse: Vec::new(), waits: false },
         Err(fault) => {

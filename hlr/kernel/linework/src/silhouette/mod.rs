@@ -16,7 +16,8 @@
 //!    `crossed`  the same of intersection lines
 //!    `behind`   farther borders of walls seen edge-on, where the surface comes toward the viewer by steps
 //! 3. `refine`   adds points on the surface between crossings until the chords are near enough; divides at cusps
-//! 4. `trace`    joins them into curves, divided where the face, the edge or the sign of the curvature changes,
+//! 4. `trace`    joins these pieces (`link`) into curves, divided where the face, the edge or the sign of the curvature
+//!               changes,
 //!    `poles`    at poles and apexes, too,
 //!    `split`    and where the image of a curve would lie on itself
 //! 5. `curve`    a circle where that is exact, else cubic pieces through the points with their tangents
@@ -38,6 +39,7 @@ mod face;
 mod facing;
 pub mod grazing;
 pub mod image;
+mod link;
 mod narrow;
 pub mod outlined;
 mod own_lines;

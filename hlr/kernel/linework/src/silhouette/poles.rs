@@ -5,8 +5,8 @@ use rustc_hash::FxHashSet;
 use super::Model;
 use super::contour::{Crossing, Fold, Node};
 use super::face::Face;
+use super::link::Link;
 use super::refine::{outward, rise};
-use super::trace::Link;
 use hlr_brep::geometry::vector::{dot, length, sub};
 
 /// Cosine of the turn up to which two curves are one.

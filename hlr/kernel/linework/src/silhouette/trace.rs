@@ -9,6 +9,7 @@ use super::contour::{Contour, Crossing, Fold, Node, contour, values};
 use super::curve::{Whole, circle, corner, tangent, through, whole_circle};
 use super::face::Face;
 use super::grazing::Grazing;
+use super::link::Link;
 use super::narrow::with_narrows;
 use super::poles::{into_apex, into_pole, through_poles};
 use super::refine::{Stretch, stretches};
@@ -36,13 +37,6 @@ pub struct Silhouette {
 pub struct Traced {
     pub silhouettes: Vec<Silhouette>,
     pub grazing: Vec<Grazing>,
-}
-
-/// A piece between two nodes: over one triangle, or along an edge.
-pub struct Link {
-    pub ends: [Node; 2],
-    pub face: i32,
-    pub stretches: Vec<Stretch>,
 }
 
 pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Traced> {
