@@ -14,7 +14,7 @@ from support.measures import distances
 from support.true_curves import on_paper
 
 cq = pytest.importorskip("cadquery")
-
+from OCP.ShapeUpgrade import ShapeUpgrade_ShapeDivideAngle  # noqa: E402
 
 RADIUS, HEIGHT = 20.0, 5.0
 NECK = 30.0
@@ -47,6 +47,13 @@ def slopes(shape):
     return at[:, ::2], tangents[:, 0] / tangents[:, 2]
 
 
+def in_quarters(shape):
+    """The same with four faces around, as other programs write it."""
+    divide = ShapeUpgrade_ShapeDivideAngle(np.pi / 2, shape.val().wrapped)
+    assert divide.Perform()
+    return cq.Workplane(cq.Shape.cast(divide.Result()))
+
+
 def lower_line_of_the_rim(shape, toward):
     """(n, 3) points at which the rim above its underside is seen edge-on, before the underside and 60 degrees aside."""
     profile, slope = slopes(shape)
@@ -55,20 +62,36 @@ def lower_line_of_the_rim(shape, toward):
     for turn in np.deg2rad(np.arange(-60.0, 60.1, 0.25)):
         last = np.flatnonzero(slope > tilt * np.cos(turn)).max()
         radius, height = profile[last]
-        points.append([radius * np.sin(turn), -radius * np.cos(turn), height])
+        angle = np.arctan2(toward[1], toward[0]) + turn
+        points.append([radius * np.cos(angle), radius * np.sin(angle), height])
     return np.array(points)
+
+
+def largest_gap(shape, drawn, beyond, azimuth):
+    """How far the lower line of the rim is from the outlines of `drawn`, at most, in accuracies."""
+    steepest = np.arctan(slopes(shape)[1].max())
+    elevation = np.pi / 2 - steepest + np.deg2rad(beyond)
+    level = float(np.cos(elevation))
+    angle = np.deg2rad(azimuth)
+    toward = (level * float(np.cos(angle)), level * float(np.sin(angle)), float(np.sin(elevation)))
+    drawing = hlr.draw(drawn, toward)
+    outlines = [line for line in drawing.lines if line.kind == "outline" and line.visible]
+    pieces = np.concatenate([np.stack([line.points[:-1], line.points[1:]], axis=1) for line in outlines])
+    off = distances(on_paper(drawing, lower_line_of_the_rim(shape, toward)), pieces)
+    return off.max() / drawing.accuracy.used
 
 
 @pytest.mark.parametrize("size", [0.025, 1.0, 2000.0])
 @pytest.mark.parametrize("beyond", [0.02, 0.1, 0.5, 1.0, 3.0])
 def test_the_lower_line_of_the_rim_has_no_gap(size, beyond):
     shape = rim(size)
-    steepest = np.arctan(slopes(shape)[1].max())
-    elevation = np.pi / 2 - steepest + np.deg2rad(beyond)
-    toward = (0.0, -float(np.cos(elevation)), float(np.sin(elevation)))
-    drawing = hlr.draw(shape, toward)
-    outlines = [line for line in drawing.lines if line.kind == "outline" and line.visible]
-    pieces = np.concatenate([np.stack([line.points[:-1], line.points[1:]], axis=1) for line in outlines])
-    wanted = on_paper(drawing, lower_line_of_the_rim(shape, toward))
-    off = distances(wanted, pieces)
-    assert off.max() < 2 * drawing.accuracy.used, off.max()
+    assert largest_gap(shape, shape, beyond, -90.0) < 1.0
+
+
+@pytest.mark.parametrize("size", [1.0, 2000.0])
+@pytest.mark.parametrize("beyond", [0.02, 0.1])
+@pytest.mark.parametrize("azimuth", [0.0, 3.0, 91.0])
+def test_nor_where_the_seam_or_another_face_is_before_the_viewer(size, beyond, azimuth):
+    shape = rim(size)
+    assert largest_gap(shape, shape, beyond, azimuth) < 1.0
+    assert largest_gap(shape, in_quarters(shape), beyond, azimuth) < 1.0

@@ -1,8 +1,8 @@
-//! A mesh of which some edges within faces are divided, and with them the triangles beside these.
+//! A mesh of which some edges are divided, and with them the triangles beside these.
 //!
 //! The new vertices lie on the edges as they are, so that the facets stay where they are. Vertices and nodes keep their
 //! numbers. Divided edges and triangles give theirs to their first piece; all other new edges come after the edges and
-//! before the intersection lines.
+//! before the intersection lines: first the second pieces of edges, then those between pieces of triangles.
 
 use rustc_hash::FxHashMap;
 use smallvec::{SmallVec, smallvec};
@@ -29,6 +29,9 @@ pub struct Divided {
     source: Vec<i32>,
     corner: Vec<[i32; 3]>,
     uv: Vec<[f64; 2]>,
+    cuts: Vec<Cut>,
+    /// Of each new node the number of its cut.
+    cut_of_node: Vec<usize>,
     /// Edges before the intersection lines, and how many are new.
     old: usize,
     new: usize,
@@ -36,6 +39,19 @@ pub struct Divided {
 
 /// A vertex and its node.
 type Corner = (i32, i32);
+
+/// The vertex at a cut, and its node in each of the two triangles there.
+struct Middle {
+    vertex: i32,
+    nodes: [(i32, i32); 2],
+}
+
+impl Middle {
+    /// In this triangle; None where that lies at another edge between the same vertices.
+    fn corner(&self, t: i32) -> Option<Corner> {
+        self.nodes.iter().find(|(beside, _)| *beside == t).map(|&(_, node)| (self.vertex, node))
+    }
+}
 
 /// The pieces of one triangle, and the edges between them.
 type Triangles = SmallVec<[[Corner; 3]; 4]>;
@@ -45,8 +61,8 @@ type Inner = SmallVec<[[i32; 2]; 3]>;
 type Pieces = FxHashMap<i32, SmallVec<[i32; 4]>>;
 
 impl Divided {
-    /// The nodes at the cuts come last, in the order of the cuts. Each edge must lie between two triangles of one face
-    /// that share its nodes.
+    /// Each edge must lie between two triangles. Where these do not share its nodes, at a seam or between two faces, there
+    /// are two new ones at its cut.
     pub fn new(model: &Model, cuts: &[Cut]) -> Divided {
         let old = model.edges.len() - model.crossed.len();
         let mut out = Divided {
@@ -60,14 +76,18 @@ impl Divided {
             source: model.source.to_vec(),
             corner: model.corner.to_vec(),
             uv: model.uv.to_vec(),
+            cuts: cuts.to_vec(),
+            cut_of_node: Vec::new(),
             old,
             new: 0,
         };
         let pieces = out.divide(model, cuts);
         out.new = out.edges.len() - old;
         out.meet(model, &pieces);
-        out.smooth.splice(old..old, vec![true; out.new]);
-        out.source.splice(old..old, vec![-1; out.new]);
+        let parts = || cuts.iter().map(|cut| cut.edge as usize);
+        let inner = out.new - cuts.len();
+        out.smooth.splice(old..old, parts().map(|e| model.smooth[e]).chain(std::iter::repeat_n(true, inner)));
+        out.source.splice(old..old, parts().map(|e| model.source[e]).chain(std::iter::repeat_n(-1, inner)));
         out.edges.extend(&model.edges[old..]);
         out
     }
@@ -89,28 +109,53 @@ impl Divided {
         }
     }
 
-    /// Gives intersection lines their numbers from before; borders of faces have kept theirs.
+    /// Of each new node, the last ones of the mesh, the number of its cut.
+    pub fn cut_of_node(&self) -> &[usize] {
+        &self.cut_of_node
+    }
+
+    /// Puts what lies along pieces of edges on the edges as they were, and gives intersection lines their old numbers.
     pub fn restore(&self, grazing: &mut [Grazing]) {
-        for stretch in grazing.iter_mut().filter(|stretch| stretch.edge as usize >= self.old) {
-            stretch.edge -= self.new as u32;
+        let cut_of: FxHashMap<u32, f64> = self.cuts.iter().map(|cut| (cut.edge, cut.at)).collect();
+        for stretch in grazing.iter_mut() {
+            let e = stretch.edge as usize;
+            if let Some(&at) = cut_of.get(&stretch.edge) {
+                stretch.range = stretch.range.map(|t| t * at);
+            } else if e >= self.old + self.new {
+                stretch.edge -= self.new as u32;
+            } else if let Some(cut) = e.checked_sub(self.old).and_then(|number| self.cuts.get(number)) {
+                stretch.edge = cut.edge;
+                stretch.range = stretch.range.map(|t| cut.at + t * (1.0 - cut.at));
+            }
         }
+        grazing.sort_by_key(|stretch| stretch.edge);
     }
 
     fn divide(&mut self, model: &Model, cuts: &[Cut]) -> Pieces {
-        let mut middles: FxHashMap<[i32; 2], Corner> = FxHashMap::default();
+        let mut middles: FxHashMap<[i32; 2], Middle> = FxHashMap::default();
         let mut beside: Vec<i32> = Vec::new();
-        for cut in cuts {
+        for (number, cut) in cuts.iter().enumerate() {
             let e = cut.edge as usize;
             let ends = model.edges[e];
             let around = &model.incident[model.offsets[e] as usize..model.offsets[e + 1] as usize];
-            let middle = (self.points.len() as i32, self.uv.len() as i32);
+            let vertex = self.points.len() as i32;
             let [a, b] = ends.map(|v| model.points[v as usize]);
             self.points.push(along(&a, &sub(&b, &a), cut.at));
-            let [p, q] = ends.map(|v| model.uv[node(model, around[0], v)]);
-            self.uv.push([0, 1].map(|k| p[k] + cut.at * (q[k] - p[k])));
-            self.edges[e] = [ends[0], middle.0];
-            self.edges.push([middle.0, ends[1]]);
-            middles.insert(sorted(ends), middle);
+            let sides = [around[0], around[1]].map(|t| ends.map(|v| node(model, t, v)));
+            let mut nodes = [0; 2];
+            for k in 0..2 {
+                if k == 1 && sides[1] == sides[0] {
+                    nodes[1] = nodes[0];
+                    continue;
+                }
+                let [p, q] = sides[k].map(|n| model.uv[n]);
+                nodes[k] = self.uv.len() as i32;
+                self.uv.push([0, 1].map(|i| p[i] + cut.at * (q[i] - p[i])));
+                self.cut_of_node.push(number);
+            }
+            self.edges[e] = [ends[0], vertex];
+            self.edges.push([vertex, ends[1]]);
+            middles.insert(sorted(ends), Middle { vertex, nodes: [(around[0], nodes[0]), (around[1], nodes[1])] });
             beside.extend(around);
         }
         beside.sort_unstable();
@@ -118,10 +163,11 @@ impl Divided {
         beside.into_iter().map(|t| (t, self.divide_triangle(model, t, &middles))).collect()
     }
 
-    fn divide_triangle(&mut self, model: &Model, t: i32, middles: &FxHashMap<[i32; 2], Corner>) -> SmallVec<[i32; 4]> {
+    fn divide_triangle(&mut self, model: &Model, t: i32, middles: &FxHashMap<[i32; 2], Middle>) -> SmallVec<[i32; 4]> {
         let (vertices, nodes) = (model.triangles[t as usize], model.corner[t as usize]);
         let corners = [0, 1, 2].map(|k| (vertices[k], nodes[k]));
-        let middle = [0, 1, 2].map(|k| middles.get(&sorted([vertices[k], vertices[(k + 1) % 3]])).copied());
+        let middle = [0, 1, 2]
+            .map(|k| middles.get(&sorted([vertices[k], vertices[(k + 1) % 3]])).and_then(|middle| middle.corner(t)));
         let (triangles, inner) = pieces(corners, middle);
         self.edges.extend(inner);
         let mut numbers = smallvec![];

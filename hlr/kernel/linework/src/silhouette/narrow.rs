@@ -15,7 +15,7 @@
 //! between them the other. Where it comes to another such triangle, these edges are `divided` within the strip.
 
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::contour::same_nodes;
 use super::divided::{Cut, Divided};
@@ -36,9 +36,10 @@ pub fn with_narrows(model: &Model, values: &mut Vec<f64>) -> Option<Divided> {
         return None;
     }
     let cuts: Vec<Cut> = found.iter().map(|narrow| narrow.cut).collect();
-    let more: Vec<f64> = found.iter().map(|narrow| narrow.value).collect();
+    let divided = Divided::new(model, &cuts);
+    let more: Vec<f64> = divided.cut_of_node().iter().map(|&cut| found[cut].value).collect();
     values.extend(more);
-    Some(Divided::new(model, &cuts))
+    Some(divided)
 }
 
 /// An edge over which a strip runs between its ends, f there, and the triangles beside it.
@@ -110,6 +111,12 @@ impl<'a> Strips<'a> {
         }
         let mut found: Vec<Narrow> = asked.into_values().flatten().collect();
         found.sort_unstable_by_key(|narrow| narrow.cut.edge);
+        // Of edges between the same vertices one.
+        let mut met: FxHashSet<[i32; 2]> = FxHashSet::default();
+        found.retain(|narrow| {
+            let [a, b] = self.model.edges[narrow.cut.edge as usize];
+            met.insert([a.min(b), a.max(b)])
+        });
         let mut ends: Vec<i32> = found.iter().flat_map(|narrow| narrow.triangles).collect();
         ends.sort_unstable();
         ends.dedup();
@@ -126,10 +133,15 @@ impl<'a> Strips<'a> {
         let model = self.model;
         let around = &model.incident[model.offsets[e] as usize..model.offsets[e + 1] as usize];
         let &[s, t] = around else { return None };
+        let ends = model.edges[e];
+        let (at, value) = self.between(s, ends)?;
+        // At a seam and between two faces both sides have a strip, or none goes on.
         if !same_nodes(model, self.values, e, around) {
-            return None;
+            let (_, other) = self.between(t, ends).filter(|_| model.smooth[e])?;
+            if (value >= -TIE) != (other >= -TIE) {
+                return None;
+            }
         }
-        let (at, value) = self.between(s, model.edges[e])?;
         Some(Narrow { cut: Cut { edge: e as u32, at }, value, triangles: [s, t] })
     }
 
@@ -141,7 +153,8 @@ impl<'a> Strips<'a> {
         if self.away(nodes[0]) != self.away(nodes[1]) {
             return None;
         }
-        let face = Face::new(self.model, self.model.triangle_face[t as usize])?;
+        let number = self.model.triangle_face[t as usize];
+        let face = self.sought[number as usize].then(|| Face::new(self.model, number))??;
         least(&face, nodes.map(|n| self.model.uv[n as usize]), nodes.map(|n| self.values[n as usize]))
     }
 }
