@@ -153,7 +153,7 @@ fn filled(field: &Field, chart: &Outline, steps: &Progress) -> Result<Option<Fil
             inner.retain(|&p| {
                 steps.step();
                 places.push(p);
-                let new = net.insert(&places, net.with(places.len() as u32 - 2), steps);
+                let new = net.insert(&places, net.triangle_at(places.len() as u32 - 2), steps);
                 if !new {
                     places.pop();
                 }

@@ -97,7 +97,7 @@ impl Triangulation {
     }
 
     /// A triangle with this corner; the first triangle where there is none.
-    pub fn with(&self, point: u32) -> usize {
+    pub fn triangle_at(&self, point: u32) -> usize {
         self.begins.get(point as usize).copied().filter(|&e| e != NONE).unwrap_or(0) as usize / 3
     }
 
@@ -230,7 +230,7 @@ mod tests {
             let [x, y] = places[places.len() - 1];
             let inside = x > 0.0 && x < 1.0 && y > 0.0 && y < 1.0;
             let new = !places[..places.len() - 1].contains(&[x, y]);
-            let near = net.with(k % 7 % places.len() as u32);
+            let near = net.triangle_at(k % 7 % places.len() as u32);
             assert_eq!(net.insert(&places, near, &Progress::free()), inside && new, "{x} {y}");
             if !(inside && new) {
                 places.pop();

@@ -147,14 +147,14 @@ impl<'a> Strips<'a> {
 
     /// Where on an edge of a triangle, from its first to its second end, f has another sign than at both, and f there.
     fn between(&self, t: i32, ends: [i32; 2]) -> Option<(f64, f64)> {
+        let number = self.model.triangle_face[t as usize];
+        let face = self.sought[number as usize].then(|| Face::new(self.model, number))??;
         let corner = |v: i32| self.model.triangles[t as usize].iter().position(|&c| c == v);
         let [Some(i), Some(j)] = ends.map(corner) else { return None };
         let nodes = [i, j].map(|k| self.model.corner[t as usize][k]);
-        if self.away(nodes[0]) != self.away(nodes[1]) {
+        if nodes.iter().any(|&n| n < 0) || self.away(nodes[0]) != self.away(nodes[1]) {
             return None;
         }
-        let number = self.model.triangle_face[t as usize];
-        let face = self.sought[number as usize].then(|| Face::new(self.model, number))??;
         least(&face, nodes.map(|n| self.model.uv[n as usize]), nodes.map(|n| self.values[n as usize]))
     }
 }
