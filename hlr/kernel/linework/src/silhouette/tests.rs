@@ -64,7 +64,8 @@ impl Body {
         let model = Model {
             points: &self.points,
             triangles: &self.triangles,
-            triangle_face: &vec![0; self.triangles.len()],
+            // A face without a surface has no parameters.
+            triangle_face: &self.corner.iter().map(|c| i32::from(c[0] < 0)).collect::<Vec<_>>(),
             edges: &t.edges,
             offsets: &t.offsets,
             incident: &t.incident,
@@ -73,12 +74,14 @@ impl Body {
             source: &vec![-1; t.edges.len()],
             corner: &self.corner,
             uv: &self.uv,
-            faces: vec![FaceRecord {
-                surface: Some(0),
-                place: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]],
-                sign: if inward { -1.0 } else { 1.0 },
-                curved: true,
-            }],
+            faces: [Some(0), None]
+                .map(|surface| FaceRecord {
+                    surface,
+                    place: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]],
+                    sign: if inward { -1.0 } else { 1.0 },
+                    curved: true,
+                })
+                .into(),
             surfaces: &[Some(self.surface.clone())],
             view: View { origin: [0.0; 3], away: [0.0, 1.0, 0.0], perspective: false },
             chord: 0.01,
@@ -314,4 +317,15 @@ fn outlines_of_a_strip_that_closes_turn_back() {
     assert!(found.iter().flat_map(|line| &line.points).all(|p| p[0] * p[0] > 0.1), "{found:?}");
     let reach = found.iter().flat_map(|line| &line.points).map(|p| p[0].abs()).fold(1.0, f64::min);
     assert!(reach < 0.8, "{reach}");
+}
+
+#[test]
+fn a_strip_ends_at_triangles_without_parameters() {
+    let mut body = furrow(3e-3);
+    let middle = |t: &[i32; 3]| t.iter().map(|&v| body.points[v as usize][0]).sum::<f64>().abs() < 0.5;
+    for (corner, _) in body.corner.iter_mut().zip(&body.triangles).filter(|(_, t)| middle(t)) {
+        *corner = [-1; 3];
+    }
+    let found = body.traced(false, false).expect("an answer").silhouettes;
+    assert!(found.len() > 2 && found.iter().flat_map(|line| &line.points).all(|p| p[0].abs() > 0.1), "{found:?}");
 }
