@@ -56,7 +56,7 @@ CODES: dict[NoteCode, str] = {
     "part-left-out": "a part holds nothing that could be drawn",
     "references-missing": "files that a STEP file refers to are not there; parts of the model are in them",
     "triangles-left-out": "triangles of a mesh are degenerate, or their corners are no numbers or do not exist",
-    "wires-left-out": "edges without faces were given beside faces: only where there are no faces are they drawn",
+    "wires-left-out": "a file has parts that are edges without faces, beside others with faces: they may be wanted",
     "free-edges-left-out": "a part of a file has edges without faces beside it: construction lines, axes, sketches",
     "annotation-left-out": "faces that a STEP file hides, or calls supplemental geometry, were left out as annotation",
     "colors-left-out": "colours of a FreeCAD object are damaged, and it is drawn without them",

@@ -25,4 +25,11 @@ def pair():
     return cq.Workplane().box(10, 10, 10).add(cq.Workplane().box(5, 5, 5).translate((4, -20, 3)))
 
 
-MODELS = {"plate": plate, "cylinder": cylinder, "vase": vase, "pair": pair}
+def path():
+    """An edge beside a box. (OpenCASCADE's projection does not see where an edge enters a solid.)"""
+    return cq.Workplane().box(10, 10, 10).add(cq.Edge.makeLine((-9, 8, 9), (9, 7, -3)))
+
+
+MODELS = {"plate": plate, "cylinder": cylinder, "vase": vase, "pair": pair, "path": path}
+STRAIGHT = {"pair", "path"}
+"""Those whose edges are all straight."""

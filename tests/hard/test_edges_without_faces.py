@@ -1,8 +1,8 @@
 """A file or an object of edges alone, as a sketch or a trajectory is exported: nothing can hide anything.
 
 (asahi.brep of OpenCASCADE: 2,828 edges, no face.) The edges are drawn as they are, from a file as from memory. A
-preview needs faces, and says so in one sentence. The same edges beside a solid are left out with a note, and a wire
-alone in a file of a part is not missed.
+preview needs faces, and says so in one sentence. Edges that a caller gives beside a solid are drawn, and hidden by it;
+those of a file, its construction lines and axes, are left out with a note.
 """
 
 from __future__ import annotations
@@ -73,14 +73,54 @@ def test_a_preview_needs_faces():
     assert "edges but no faces" in sentence
 
 
-def test_beside_a_solid_they_are_left_out_with_a_note(picture):
-    assembly = cq.Assembly()
-    assembly.add(cq.Workplane().box(20, 20, 20), name="box").add(compound(*edges(3)), name="path")
-    drawing = hlr.draw(assembly, "iso", **AT_SIZE)
-    assert drawing.notes == (Note("wires-left-out", 'Part "path" without faces (3 edges) left out.'),)
-    assert {drawing.parts[line.part].name for line in drawing.lines} == {"box"}
+ROD = [(-20, 3, 2), (-10, 3, 2), (10, 3, 2), (20, 3, 2)]
+"""A straight path through a cube of 20, and the points where it enters and leaves it."""
+
+
+def cube_and_path():
+    ends = [cq.Vector(*ROD[k]) for k in (0, -1)]
+    return cq.Workplane().box(20, 20, 20).val(), cq.Edge.makeLine(*ends)
+
+
+def as_list(tmp_path):
+    return list(cube_and_path())
+
+
+def as_compound(tmp_path):
+    return compound(*cube_and_path())
+
+
+def as_assembly(tmp_path):
+    cube, path = cube_and_path()
+    return cq.Assembly().add(cube, name="cube").add(path, name="path")
+
+
+def as_script(tmp_path):
+    script = tmp_path / "rod.py"
+    script.write_text(
+        "import cadquery as cq\n"
+        "show_object(cq.Workplane().box(20, 20, 20))\n"
+        f"show_object(cq.Edge.makeLine(cq.Vector{ROD[0]}, cq.Vector{ROD[-1]}))\n"
+    )
+    return script
+
+
+@pytest.mark.parametrize("given", [as_list, as_compound, as_assembly, as_script])
+def test_those_of_a_caller_are_drawn_beside_a_solid(given, tmp_path, picture):
+    drawing = hlr.draw(given(tmp_path), "front", **AT_SIZE)
+    assert not [note for note in drawing.notes if note.is_warning]
+    before, within, behind = pairwise(ROD)
+    square = [(-10, -10, -10), (10, -10, -10), (10, -10, 10), (-10, -10, 10), (-10, -10, -10)]
+    agrees(drawing, expect(drawing, visible=[before, behind, *pairwise(square)], hidden=[within]))
+    picture(hlr.draw(given(tmp_path), "iso", **AT_SIZE))
+
+
+def test_those_of_a_file_are_left_out_with_a_note(tmp_path):
+    as_assembly(tmp_path).export(str(tmp_path / "rod.step"))
+    drawing = hlr.draw(tmp_path / "rod.step", "iso", **AT_SIZE)
+    assert drawing.notes == (Note("wires-left-out", 'Part "path" without faces (1 edge) left out.'),)
+    assert {drawing.parts[line.part].name for line in drawing.lines} == {"cube"}
     assert len(drawing.lines) == 12
-    picture(drawing)
 
 
 def an_edge_without_length():

@@ -116,6 +116,16 @@ def test_open_surfaces_are_cut_and_not_hatched():
     assert not len(hatch_of(drawing))
 
 
+def test_an_edge_without_faces_is_cut_and_has_nothing_to_hatch():
+    path = cq.Edge.makeLine(cq.Vector(-20, -20, 9), cq.Vector(20, 20, 9))
+    drawing = section([cq.Workplane().box(10, 10, 10), path])
+    (line,) = (line for line in drawing.lines if line.part == 1)
+    # From the plane through the middle of the box to its end behind it.
+    assert np.ptp(line.points, axis=0) == pytest.approx((20, 0))
+    assert drawing.section.parts == (0,)
+    assert [note for note in drawing.notes if "section" in note.code] == []
+
+
 def test_faces_that_close_a_body_are_a_solid():
     shell = plate().val().Shells()[0]
     assert hatched_area(section(shell), 3.0) == pytest.approx(2 * 20 * HEIGHT, rel=0.03)

@@ -238,10 +238,13 @@ def _notes(drawing: Drawing, session: Session, cut: _Cut, name: str) -> list[Not
 
 
 def _at_plane(session: Session, cut: _Cut) -> set[str]:
-    """Names of the parts that reach a plane. Others are cut by its steps alone, or have bodies on both sides of it."""
+    """Names of the parts whose faces reach a plane: edges without faces have nothing to hatch.
+
+    Other parts are cut by the steps of the plane alone, or have bodies on both sides of it.
+    """
     planes, near = cut.planes.stepped(), AT_PLANE * cut.planes.near
     return {
         cut.source.whose[part.name]
         for part in session.parts
-        if len(part.points) and float(np.abs(planes.heights(part.points)).min()) <= near
+        if len(part.triangles) and float(np.abs(planes.heights(part.points)).min()) <= near
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Literal
 
 from hlr.drawing.notes import Note, NoteCode
 from hlr.errors import SourceError, counted
@@ -20,30 +21,33 @@ def build_source(
 ) -> BrepSource:
     """Split leaves into parts and make a source of them.
 
-    A caller's shapes are not copied; those of a file are released. wires_too: edges without faces are parts as well.
-    They are anyway where there are no faces at all, as of a sketch or a path: nothing hides them.
+    A caller's shapes are not copied; those of a file are released. Edges without faces are parts as well where a
+    caller gives them, or where there are no faces at all, as of a sketch or a path. Those of a file, beside faces, are
+    parts only with wires_too: they are its construction lines, axes or sketches.
 
     Raises:
         SourceError: there are no shapes, or they have neither faces nor edges.
     """
-    # In a file, wires with the name of a part that is drawn are its construction lines, axes or sketches: leaving them
-    # out is worth a remark. Wires with a name of their own, or of a caller, may be wanted: a warning.
     of_file = kind not in ("object", "script")
     collector = PartCollector(_shapes_of(leaves, of_file), leaves)
     prototypes = collector.prototypes
     if not collector.parts:
         raise SourceError(f"{name} holds no shapes: there is nothing to draw.")
-    has_faces = prototypes.has_faces
-    if not any(has_faces):
-        if not prototypes.counts[:, 1].any():
-            raise SourceError(f"{name} holds no faces and no edges: there is nothing to draw.")
-        wires_too = True
-    parts = [part for part in collector.parts if wires_too or has_faces[part.prototype]]
-    wires = [part for part in collector.parts if not wires_too and not has_faces[part.prototype]]
-    drawn = {part.product for part in parts if of_file}
+    holds = _contents(prototypes)
+    if "faces" not in holds and "edges" not in holds:
+        raise SourceError(f"{name} holds no faces and no edges: there is nothing to draw.")
+    wires_too = wires_too or not of_file or "faces" not in holds
+    wanted = ("faces", "edges") if wires_too else ("faces",)
+    parts = [part for part in collector.parts if holds[part.prototype] in wanted]
+    wires = [] if wires_too else [part for part in collector.parts if holds[part.prototype] == "edges"]
+    empty = [part for part in collector.parts if holds[part.prototype] == "nothing"]
+    # Where a part of the same name is drawn, leaving its wires out is worth a remark. Wires with a name of their own
+    # may be wanted: a warning.
+    drawn = {part.product for part in parts}
     all_notes = [
         *notes,
         *collector.notes,
+        *(Note("part-left-out", f'Part "{part.name}" is empty and was left out.') for part in empty),
         *_left_out("free-edges-left-out", [part for part in wires if part.product in drawn], prototypes),
         *_left_out("wires-left-out", [part for part in wires if part.product not in drawn], prototypes),
     ]
@@ -56,6 +60,13 @@ def build_source(
             all_notes,
         )
     return BrepSource(name, kind, parts, prototypes, all_notes)
+
+
+def _contents(prototypes: Prototypes) -> list[Literal["faces", "edges", "nothing"]]:
+    """(r,) what each prototype holds: faces, edges alone, or neither."""
+    if all(prototypes.has_faces):  # the rule, for which shapes in memory need not be counted
+        return ["faces"] * len(prototypes.has_faces)
+    return ["faces" if faces else "edges" if edges else "nothing" for faces, edges, _ in prototypes.counts.tolist()]
 
 
 def _shapes_of(leaves: Sequence[Leaf], of_file: bool) -> PartShapes:
