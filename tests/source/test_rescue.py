@@ -9,6 +9,7 @@ import pytest
 from hlr.source import open_source
 from hlr.source.cad import rescue
 from hlr.source.cad.rescue import faces_of, run_mesher
+from support.brep_shapes import scrawled_cylinder
 
 SHAPES = {
     "plate": lambda: cq.Workplane().box(30, 30, 4).faces(">Z").workplane().rarray(6, 6, 4, 4).hole(3),
@@ -81,3 +82,38 @@ def test_half_a_face_is_never_taken_for_a_whole(mesher, monkeypatch):
     assert all(rescue.rescue(meshed, number, face, 0.02, 0.3) for number, face in faces.items())
     monkeypatch.setattr(rescue, "run_mesher", mesher)
     assert not any(rescue.rescue(meshed, number, face, 0.02, 0.3) for number, face in faces.items())
+
+
+def test_a_face_without_loops_is_not_given_to_the_other_mesher(monkeypatch):
+    """Nothing would tell whether its triangles fill it, and on a spline that took more than ten minutes."""
+    from OCP.BRep import BRep_Builder
+    from OCP.Geom import Geom_OffsetSurface
+    from OCP.TopoDS import TopoDS_Face
+
+    profile = cq.Workplane("XZ").moveTo(2, 0).spline([(8, 4), (5, 10), (9, 17)], includeCurrent=True)
+    around = profile.lineTo(1, 22).close().revolve(360, (0, 0, 0), (0, 1, 0)).val()
+    widest = max(around.Faces(), key=lambda face: face.Area())
+    bare = TopoDS_Face()
+    BRep_Builder().MakeFace(bare, Geom_OffsetSurface(widest._geomAdaptor(), 0.5), 1e-7)
+    asked = []
+    monkeypatch.setattr(rescue, "run_mesher", lambda *given: asked.append(given))
+    source = open_source([cq.Workplane().box(1, 1, 1), cq.Face(bare)])
+    assert len(source.mesh(0.005, 0.5).parts) == 1
+    assert [note.code for note in source.notes] == []
+    assert asked == []
+
+
+@pytest.mark.parametrize("deflection", [1e-3, 1e-6])
+def test_its_work_has_a_bound(deflection):
+    """Of what is asked for, it does what takes it a few seconds; a warning says how far off that may be."""
+    solid, side = scrawled_cylinder()
+    size = float(np.hypot(np.hypot(6, 6), 10))
+    assert rescue.smallest_deflection(side) == pytest.approx(rescue.SMALLEST_DEFLECTION * size, rel=0.01)
+    source = open_source(solid)
+    meshed = source.mesh(deflection, 0.5)
+    assert meshed.rescued == 1
+    notes = {note.code: note.text for note in meshed.notes}
+    if deflection == 1e-3:
+        assert "faces-too-coarse" not in notes
+    else:
+        assert "may be 0.00066 mm off" in notes["faces-too-coarse"]

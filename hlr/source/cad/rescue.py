@@ -10,6 +10,9 @@ is off by a whole period, or belongs to another edge. These repairs are tried in
 
 The kernel accepts the triangles only where they fill the face's loops and have its area. It then joins them to the
 edges' polylines, which do not change, so neither do the neighbouring faces. The caller's shape is not touched.
+
+OpenCASCADE's mesher cannot be interrupted, and its time grows faster than its triangles. So both its chord error and
+its triangles have a smallest size, a share of the face's, with which a face takes it a few seconds at most.
 """
 
 from __future__ import annotations
@@ -28,6 +31,12 @@ from hlr.source.cad.shapes import sub_shapes
 Copied = tuple[Any, Callable[[Any], Any]]
 """A copied face, and the function from an edge of the original to its copy."""
 
+SMALLEST_DEFLECTION = 1 / 20_000
+"""Of the size of a face: a ball has some 60,000 triangles then."""
+
+SMALLEST_SIDE = 1 / 500
+"""Of the size of a face: of OpenCASCADE's triangles on splines. It comes into play where they have folds or spikes."""
+
 Border = tuple[list[int], list[float]]
 """Nodes on an edge and their parameters, in the direction of the edge."""
 
@@ -38,9 +47,12 @@ def rescue(meshed: _kernel.BrepMesh, number: int, face: Any, deflection: float, 
     number: of the face in `meshed`; face: the TopoDS_Face; deflection: model units; angle: turning per chord, radians.
     """
     from OCP.TopAbs import TopAbs_Orientation
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
     from OCP.TopLoc import TopLoc_Location
-    from OCP.TopoDS import TopoDS
+    from OCP.TopoDS import TopoDS, TopoDS_Iterator
 
+    if not any(True for _ in _children(face, Kind.TopAbs_WIRE, TopoDS_Iterator)):
+        return False  # without loops nothing tells whether the triangles fill it
     unplaced = TopoDS.Face(face.Located(TopLoc_Location(), False).Oriented(TopAbs_Orientation.TopAbs_FORWARD))
     for repair in _repairs(unplaced):
         with suppress(Exception):  # OpenCASCADE's exceptions derive from Exception alone; the next repair is tried
@@ -65,7 +77,25 @@ def run_mesher(face: Any, deflection: float, angle: float) -> None:
     parameters.MeshAlgo = IMeshTools_MeshAlgoType.IMeshTools_MeshAlgoType_Watson
     parameters.Deflection = deflection
     parameters.Angle = angle
+    parameters.MinSize = SMALLEST_SIDE * _size(face)
     BRepMesh_IncrementalMesh(face, parameters)
+
+
+def smallest_deflection(face: Any) -> float:
+    """The smallest chord error to ask OpenCASCADE's mesher for, model units. face: a TopoDS_Face."""
+    return SMALLEST_DEFLECTION * _size(face)
+
+
+def _size(face: Any) -> float:
+    """The diagonal of a box around the edges of a face, model units: a box of its (u, v) may be as wrong as these."""
+    from OCP.Bnd import Bnd_Box
+    from OCP.BRepBndLib import BRepBndLib
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+    box = Bnd_Box()
+    for edge in sub_shapes(face, Kind.TopAbs_EDGE):
+        BRepBndLib.Add_s(edge, box, False)
+    return 0.0 if box.IsVoid() else float(box.SquareExtent()) ** 0.5
 
 
 def _repairs(face: Any) -> Iterator[Callable[[], Copied]]:

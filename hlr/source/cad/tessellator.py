@@ -17,7 +17,7 @@ from hlr.request.accuracy import ALONE, TOUCHING
 from hlr.request.options import Vector
 from hlr.source.cad.meshing_faults import MeshingFaults
 from hlr.source.cad.prototypes import Prototypes
-from hlr.source.cad.rescue import rescue
+from hlr.source.cad.rescue import rescue, smallest_deflection
 from hlr.source.model import Curves, SurfaceRecords
 
 PLANARITY_SHARE = 1e-7
@@ -67,7 +67,7 @@ class Tessellator:
         faults.lost += given_up
         # Of the crossing loops as well.
         faults.torn = dict(meshed.torn())
-        faults.unfinished = {number: off for number, off in meshed.unfinished() if math.isfinite(off)}
+        faults.unfinished |= {number: off for number, off in meshed.unfinished() if math.isfinite(off)}
         return faults
 
     def _rescue(
@@ -76,8 +76,11 @@ class Tessellator:
         faces = self._prototypes.failed_faces(self._chosen, failed)
         for number, face in sorted(faces.items(), key=lambda item: item[0]):
             give_up = len(faults.lost) >= MAX_FAILED_RESCUES
-            if not give_up and face is not None and rescue(meshed, number, face, deflection, angle):
+            possible = 0.0 if give_up or face is None else max(deflection, smallest_deflection(face))
+            if possible and rescue(meshed, number, face, possible, angle):
                 faults.rescued.append(number)
+                if possible > deflection:
+                    faults.unfinished[number] = possible
             elif not give_up and meshed.fill(number, deflection, angle):
                 faults.crossed.append(number)
             else:
